@@ -13,8 +13,8 @@
 //! A stage ends with a [`Job`]: a copy of its sums, solved in `f64` outside the tick ([`Job::solve`]) while the tick
 //! holds the motor, and handed back ([`Commissioning::accept`]). The last one gives [`CommissioningResult`]: the
 //! two-mass machine, with standard deviations, for the same [`try_observer`](crate::machine::TwoMass::try_observer) and
-//! [`try_speed_loop`](crate::machine::TwoMass::try_speed_loop) that the compiler uses; or a [`Error`] why the data do
-//! not support an answer.
+//! [`try_speed_loop`](crate::machine::TwoMass::try_speed_loop) that the compiler uses; or an [`Error`] that says
+//! why the data do not suffice.
 //!
 //! ```
 //! use driveline::commissioning::{Commissioning, Stage, TestConfig, TestSettings};

@@ -446,7 +446,7 @@ mod tests {
     }
 
     #[test]
-    fn without_a_governor_the_last_torque_that_was_believed_stands_in() {
+    fn without_a_governor_the_last_plausible_torque_stands_in() {
         let mut drive = Drive::<f64, RigidObserver<f64>>::new(&CONFIG, 0);
         drive.tick(&CONFIG, &Sample { angle: 0, torque: 1.0, setpoint: 0.0 });
         for torque in [f64::NAN, f64::INFINITY, -10.1] {

@@ -40,7 +40,8 @@
 //! const CYCLE: CycleConfig = CycleConfig::new(Cycle::TURN, 1e-4, Bases::SI);
 //! const CONFIG: WaveformConfig = WaveformConfig::new::<64>(CYCLE, 16);
 //!
-//! let mut waveform = Waveform::<f32, 64>::default(); // in a drive: `Drive<f32, TwoMass<f32>, Waveform<f32, 64>, ..>`
+//! // in a drive: `Drive<f32, TwoMassObserver<f32>, Waveform<f32, 64>, ..>`
+//! let mut waveform = Waveform::<f32, 64>::default();
 //! let mut phi = 0.0_f64;
 //! let ripple = loop {
 //!     phi += 1e-4 * 150.0 * (1.0 + 0.01 * (2.0 * phi).cos()); // 2 % from peak to peak, twice a turn

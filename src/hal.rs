@@ -53,8 +53,8 @@
 //! # }
 //! ```
 //!
-//! A time limit round either await is safe: without an angle the tick is blind, and a torque that did not arrive trips
-//! in the next tick.
+//! A time limit round either await is safe: without an angle the tick coasts, and a torque that did not arrive trips in
+//! the next tick.
 //!
 //! # A board
 //! A new board is one file with one type that implements [`Board`]: an angle in, a torque out, the power stage on and

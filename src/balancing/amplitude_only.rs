@@ -17,8 +17,8 @@ pub struct FromAmplitudes<T: Scalar> {
     pub weight: Complex<T>,
     /// A second answer, equally good, of two trial runs.
     pub or: Option<Complex<T>>,
-    /// How far three or more runs disagree: by how much the effect's square from their mean differs from that of their
-    /// differences, over the latter; 0 (they agree) to 1.
+    /// Difference of the two estimates of the squared effect (by the runs' mean, by their differences) over the second;
+    /// 0: they agree, or are two runs, 1: the limit.
     pub disagreement: T,
 }
 

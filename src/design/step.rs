@@ -22,7 +22,7 @@ pub struct ExactStep {
     pub n11: f64,
     /// Twist from twist rate (s).
     pub n12: f64,
-    /// Twist from drive (s2).
+    /// Twist from forcing (s2).
     pub g1: f64,
     /// Twist rate from twist (1/s).
     pub n21: f64,

@@ -1,7 +1,7 @@
 //! A speed governor composed by type: ramp, proportional and integral action with anti-windup, and optional parts.
 //!
 //! ```text
-//! omega* = ramp(reference) - droop,    e = omega* - omega_m
+//! omega* = ramp(setpoint) - droop,     e = omega* - omega_m
 //! tau    = limit(k_p e + I + compensation),  I' = I + k_i e + k_u (tau - wanted)
 //! ```
 //!

@@ -26,7 +26,7 @@
 //! | angle: dropped, frozen, noisy, negated, no number | coasts | trips: sensor loss, after 15 ms |
 //! | rack: dropped, noisy, negated | the expected torque instead | trips: actuator, after 0.1 s and more |
 //! | rack: no number | the same | trips: sensor loss, after 0.1 s |
-//! | rack: frozen | believed | accepted until the command moves by a fifth of the rated torque, then as dropped |
+//! | rack: frozen | accepted, since plausible | accepted until the command moves by a fifth of the rated torque, then as dropped |
 //! | setpoint: frozen, noisy, no number | the ramp hardly moves; the last good one | rides through |
 //! | setpoint: dropped, negated | the ramp hardly moves | is one: the set slows down, and trips by underspeed, or its coupling by overload |
 
