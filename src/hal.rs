@@ -91,7 +91,9 @@
 //! prediction.
 //!
 //! # From a board to a governed motor
-//! With the feature `hal`, two dozen lines, on any board; the timer's wait here stands for its interrupt:
+//! With the feature `hal`, two dozen lines, on any board; the timer's wait here stands for its interrupt. A new drive
+//! takes its constants from a [`Machine`](crate::configure::Machine). A [`Config`](crate::drive::Config) by hand, as
+//! here, is for values that come at run time; the functions that begin with `try_` then return an error:
 //!
 //! ```
 //! # struct MyBoard(u32);
