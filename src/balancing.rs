@@ -15,18 +15,19 @@
 //! balancing machine. [`Holes`] splits a weight between holes and stock weights, [`Tolerance`] grades the residual
 //! unbalance (ISO 21940-11), [`from_amplitudes`] needs no phase. [`Procedure`] leads through the runs, rejects
 //! impossible entries, and resumes after a power cut from a record; with the feature `parameters` the record is kept in
-//! flash. [`InRun`] does without trial runs, by a balancing head or an actuator while the machine turns.
+//! flash. [`InRun`] does without trial runs, by a balancing head or an actuator while the machine turns. Take
+//! [`Procedure`] for weights that are fitted by hand between runs, [`InRun`] where such a device moves them.
 //!
 //! # Terms
-//! | term | meaning | unit |
-//! |---|---|---|
-//! | phasor | amplitude and phase of the vibration at the rotor's order: `v = Re(X e^{i order theta})`, `theta` the rotor's angle | of the channel |
-//! | order | periods of the vibration on a turn of the rotor | |
-//! | block | a number of whole turns that gives one phasor of its own | |
-//! | row | a reading of a run: a sensor at a speed | |
-//! | plane | where a weight can be put; a weight is its mass, or mass times radius, at an angle | kg, kg m |
-//! | influence coefficient | change of a row per unit weight in a plane | row per weight |
-//! | run-out | signal of a displacement sensor on a shaft that does not vibrate but is not round | of the channel |
+//! - **phasor**: amplitude and phase of the vibration at the rotor's order: `v = Re(X e^{i order theta})`, `theta` the
+//!   rotor's angle; unit of the channel
+//! - **order**: periods of the vibration on a turn of the rotor
+//! - **block**: a number of whole turns that gives one phasor of its own
+//! - **row**: a reading of a run: a sensor at a speed
+//! - **plane**: where a weight can be put; a weight is its mass, or mass times radius, at an angle; kg, kg m
+//! - **influence coefficient**: change of a row per unit weight in a plane; row per weight
+//! - **run-out**: signal of a displacement sensor on a shaft that does not vibrate but is not round; unit of the
+//!   channel
 
 use crate::fault::Faults;
 use crate::number::Number;

@@ -1,14 +1,15 @@
 //! Commissioning: a test sequence that identifies the machine from the motor's angle and the commanded torque alone.
 //!
-//! [`Commissioning`] runs in the tick and gives the torque: bounded, as is the travel. It goes through these stages:
+//! [`Commissioning`] runs in the tick and gives the torque: bounded, as is the travel. Its stages, the motor in
+//! each, and the quantities identified:
 //!
-//! | stage | the motor | gives |
-//! |---|---|---|
-//! | [`Stage::Holding`] | stands | nothing: the load settles |
-//! | [`Stage::Friction`] | two speeds and the ramps between, both ways | total inertia, Coulomb and viscous friction, weight |
-//! | [`Stage::Encoder`] | 8 to 40 turns at the test's speed | eccentricity of the encoder, which is then taken off |
-//! | [`Stage::Backlash`] | creeps in both directions against a load held by friction | gap |
-//! | [`Stage::Resonance`] | turns slowly under a multisine, first small, then as large as the shaft may carry, both ways | inertias, stiffness, damping |
+//! - **[`Stage::Holding`]**: the motor stands while the load settles.
+//! - **[`Stage::Friction`]**: two speeds and the ramps between, both ways; total inertia, Coulomb and viscous friction,
+//!   weight.
+//! - **[`Stage::Encoder`]**: 8 to 40 turns at the test's speed; eccentricity of the encoder, which is then taken off.
+//! - **[`Stage::Backlash`]**: the motor creeps in both directions against a load held by friction; gap.
+//! - **[`Stage::Resonance`]**: the motor turns slowly under a multisine, first small, then as large as the shaft may
+//!   carry, both ways; inertias, stiffness, damping.
 //!
 //! A stage ends with a [`Job`]: a copy of its sums, solved in `f64` outside the tick ([`Job::solve`]) while the tick
 //! holds the motor, and handed back ([`Commissioning::accept`]). The last one gives [`CommissioningResult`]: the

@@ -4,17 +4,20 @@
 //! machine does not need; such a part costs nothing. Configuration stands apart: one [`Config`] may serve many drives.
 //!
 //! # Bad samples
-//! A sample is used only if plausible. An implausible value is flagged and left out:
+//! A sample is used only if plausible. An implausible value is flagged and left out. The sample, its flag, and what the
+//! tick does:
 //!
-//! | sample | flag | the tick |
-//! |---|---|---|
-//! | torque NaN, infinite, beyond its limit | [`Faults::TORQUE`] | takes the torque last commanded; without a governor, the last plausible one |
-//! | setpoint NaN, infinite, beyond its limit | [`Faults::SETPOINT`] | keeps the last good one |
-//! | angle further from the prediction than the innovation limit | [`Faults::ANGLE_JUMP`] | coasts |
-//! | angle unchanged though the motor should have turned by more than the frozen-turn limit, or far from the prediction | [`Faults::ANGLE_FROZEN`] | coasts |
-//! | no angle at all ([`Drive::coast`]) | [`Faults::ANGLE_MISSING`] | coasts |
-//! | ticks that did not run before it ([`Drive::make_up`]) | [`Faults::TICK_MISSED`] | is preceded by as many predictions |
-//! | after more than the limit of such ticks | [`Faults::ANGLE_LOST`] as well | keeps the estimates and commands no torque until there are two angles in a row that differ |
+//! - **torque NaN, infinite, beyond its limit**, [`Faults::TORQUE`]: takes the torque last commanded; without a
+//!   governor, the last plausible one
+//! - **setpoint NaN, infinite, beyond its limit**, [`Faults::SETPOINT`]: keeps the last good one
+//! - **angle further from the prediction than the innovation limit**, [`Faults::ANGLE_JUMP`]: coasts
+//! - **angle unchanged** though the motor should have turned by more than the frozen-turn limit, or far from the
+//!   prediction, [`Faults::ANGLE_FROZEN`]: coasts
+//! - **no angle at all** ([`Drive::coast`]), [`Faults::ANGLE_MISSING`]: coasts
+//! - **ticks that did not run before it** ([`Drive::make_up`]), [`Faults::TICK_MISSED`]: is preceded by as many
+//!   predictions
+//! - **after more than the limit of such ticks**, [`Faults::ANGLE_LOST`] as well: keeps the estimates and
+//!   commands no torque until there are two angles in a row that differ
 //!
 //! With a lost angle the drive commands no torque: the brake must hold the machine. The governor starts anew when the
 //! angle is reacquired.

@@ -7,15 +7,14 @@
 //!
 //! The count starts at zero torque, as a drive does: at rest, without torque in its shaft.
 //!
-//! | term | meaning | unit |
-//! |---|---|---|
-//! | reversal | largest or smallest torque between two smaller or larger ones | N m |
-//! | four-point method | of four reversals in a row the middle two are a cycle where their range is in that of the outer ones; they are counted and removed [DIN 45667; ASTM E1049 counts the same cycles] | |
-//! | residue | reversals that close no cycle yet: ranges that grow, then shrink | |
-//! | range | largest less smallest torque of a cycle | N m |
-//! | S-N (Wöhler) curve | cycles to failure against the amplitude, half of the range | |
-//! | damage | cycles over cycles to failure, summed over all ranges (Miner); failure at 1 | |
-//! | torque amplification factor | largest torque over the rated torque | |
+//! - **reversal**: largest or smallest torque between two smaller or larger ones; N m
+//! - **four-point method**: of four reversals in a row the middle two are a cycle where their range is in that of the
+//!   outer ones; they are counted and removed [DIN 45667; ASTM E1049 counts the same cycles]
+//! - **residue**: reversals that close no cycle yet: ranges that grow, then shrink
+//! - **range**: largest less smallest torque of a cycle; N m
+//! - **S-N (Wöhler) curve**: cycles to failure against the amplitude, half of the range
+//! - **damage**: cycles over cycles to failure, summed over all ranges (Miner); failure at 1
+//! - **torque amplification factor**: largest torque over the rated torque
 //!
 //! ```
 //! use driveline::fatigue::{Rainflow, TorqueClasses, WoehlerLine};

@@ -9,12 +9,11 @@
 //! # Frames
 //! A frame is a packet after consistent overhead byte stuffing [Cheshire, Baker 1999], and a zero. A packet ends with
 //! the CRC-16 of its preceding bytes (polynomial 0x1021, begun with 0xffff, most significant bit first), all words
-//! least significant byte first:
+//! least significant byte first. The first byte is the kind of the packet; each field is followed by its bytes:
 //!
-//! | packet | bytes |
-//! |---|---|
-//! | record | 1; number of the tick, 4; records dropped before it, 4; each value, 4 |
-//! | channel | 2; its index, 1; all of them, 1; kind, 1 (0 `f32`, 1 integer); factor of an integer as `f32`, 4; length of its name, 1; name; unit |
+//! - **record**, kind 1: number of the tick, 4; records dropped before it, 4; each value, 4.
+//! - **channel**, kind 2: its index, 1; number of channels, 1; type, 1 (0 `f32`, 1 integer); factor of an integer as
+//!   `f32`, 4; length of its name, 1; name; unit.
 //!
 //! The number of the tick counts dropped records, too: a gap in it is as long as it was.
 

@@ -5,12 +5,12 @@
 //! not misled. Beyond the timeout the actuator sticks or its sensor has failed, and the machine must be tripped. The
 //! torque alone does not distinguish the two.
 //!
-//! | position | reaction |
-//! |---|---|
-//! | as expected, to the tolerance | accepted |
-//! | beyond the tolerance: dropped, negated, noisy, stuck | the expected torque instead, [`Faults::TORQUE`]; after the timeout [`Trip::Actuator`] |
-//! | no torque: NaN, infinite, beyond the actuator's range | the same, and [`Trip::SensorLoss`] |
-//! | frozen at what is still expected | accepted: it is right; detected when the command moves by more than the tolerance |
+//! - **position as expected**, to the tolerance: accepted.
+//! - **beyond the tolerance**: dropped, negated, noisy, stuck: the expected torque instead, [`Faults::TORQUE`]; after
+//!   the timeout [`Trip::Actuator`].
+//! - **no torque**: NaN, infinite, beyond the actuator's range: the same, and [`Trip::SensorLoss`].
+//! - **frozen at what is still expected**: accepted: it is right; detected when the command moves by more than the
+//!   tolerance.
 
 use super::Trip;
 use crate::fault::Faults;

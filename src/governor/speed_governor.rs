@@ -8,13 +8,15 @@
 //! Anti-windup by back-calculation at the integral's own rate, for every part of the limit: torque, power or slew.
 //! [`BacklashTakeUp`](super::BacklashTakeUp) moves the ramped setpoint back as well.
 //!
-//! | parameter | parts |
-//! |---|---|
-//! | `S`, shaping of the setpoint | `()` isochronous, [`Droop`](super::Droop), [`Barred`](super::Barred) |
-//! | `F`, compensation | `()`, [`FeedForward`](super::FeedForward), [`ActiveDamping`](super::ActiveDamping), [`AccelerationFeedback`](super::AccelerationFeedback) |
-//! | `L`, the limit | [`SymmetricLimit`], [`TorqueRange`](super::TorqueRange), [`Curve`](super::Curve), [`Slew`](super::Slew) or [`BacklashTakeUp`](super::BacklashTakeUp) round any of them |
-//! | `M`, run sequence | `()` always governing, [`Sequencer`](super::Sequencer) |
-//! | `V`, speed filter | `()` none, [`MovingAverage`](super::MovingAverage) over an engine's firing interval, [`CycleAverage`](super::CycleAverage) over a cycle |
+//! - **`N`**, the number: `f32`, `f64` or [`Fixed`](crate::number::Fixed)
+//! - **`S`**, shaping of the setpoint: `()` isochronous, [`Droop`](super::Droop), [`Barred`](super::Barred)
+//! - **`F`**, compensation: `()` none, [`FeedForward`](super::FeedForward), [`ActiveDamping`](super::ActiveDamping),
+//!   [`AccelerationFeedback`](super::AccelerationFeedback)
+//! - **`L`**, the limit: [`SymmetricLimit`], [`TorqueRange`](super::TorqueRange), [`Curve`](super::Curve),
+//!   [`Slew`](super::Slew) or [`BacklashTakeUp`](super::BacklashTakeUp) round any of them
+//! - **`M`**, run sequence: `()` always governing, [`Sequencer`](super::Sequencer)
+//! - **`V`**, speed filter: `()` none, [`MovingAverage`](super::MovingAverage) over an engine's firing interval,
+//!   [`CycleAverage`](super::CycleAverage) over a cycle
 //!
 //! Two parts of one kind are a tuple: `(Droop, Barred<f32, 2>)`. A part left out costs nothing.
 
@@ -36,7 +38,7 @@ pub struct Gains<N: Number> {
     pub ramp: N,
 }
 
-/// Constants of [`SpeedGovernor`].
+/// Constants of [`SpeedGovernor`], of the number `N` and those of each part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpeedGovernorConfig<N: Number, S, F, L, M, V> {
@@ -64,7 +66,8 @@ pub type SpeedGovernorConfigOf<N, S = (), F = (), L = SymmetricLimit, M = (), V 
     <V as SpeedFilter<N>>::Config,
 >;
 
-/// State of the governor.
+/// State of the governor, of the number `N` and by its parts: `S` shapes the setpoint, `F` compensates, `L` limits the
+/// torque, `M` is the run sequence, `V` filters the speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpeedGovernor<N, S = (), F = (), L = SymmetricLimit, M = (), V = ()> {

@@ -4,13 +4,13 @@
 //! spring there, a [`Resonance`], and the ring's inertia over that of the resonance is the mass ratio mu. Amplitudes
 //! are over the static angle, torque over stiffness.
 //!
-//! | damper | best size | largest amplitude |
-//! |---|---|---|
-//! | [`tuned`](Resonance::tuned_damper) (Den Hartog) | frequency `omega/(1 + mu)`, damping ratio `sqrt(3 mu/(8 (1 + mu)))` | `sqrt(1 + 2/mu)` |
-//! | [`viscous`](Resonance::viscous_damper) (Lanchester) | `d = 2 J_d omega/sqrt(2 (1 + mu) (2 + mu))` | `(2 + mu)/mu` |
-//! | [`friction`](FrictionDamper) | torque `sqrt(2)/pi J_d omega^2 phi` | `pi^2/(4 mu)` |
-//! | [`absorber`](Damper::absorber) | frequency that of the excitation | none there |
-//! | [`pendulum`](CentrifugalPendulum) | order `sqrt(R/L)` | none at that order, at every speed |
+//! - **[`tuned`](Resonance::tuned_damper)** (Den Hartog): frequency `omega/(1 + mu)`, damping ratio `sqrt(3 mu/(8 (1 +
+//!   mu)))`; largest amplitude `sqrt(1 + 2/mu)`
+//! - **[`viscous`](Resonance::viscous_damper)** (Lanchester): `d = 2 J_d omega/sqrt(2 (1 + mu) (2 + mu))`; largest
+//!   amplitude `(2 + mu)/mu`
+//! - **[`friction`](FrictionDamper)**: torque `sqrt(2)/pi J_d omega^2 phi`; largest amplitude `pi^2/(4 mu)`
+//! - **[`absorber`](Damper::absorber)**: frequency that of the excitation; no amplitude there
+//! - **[`pendulum`](CentrifugalPendulum)**: order `sqrt(R/L)`; no amplitude at that order, at every speed
 //!
 //! The first two hold for a machine without damping of its own.
 //!

@@ -12,12 +12,11 @@
 //! than its skip falls throws it into a slack rope, and the skip falls back into it. The emergency stop is run with two
 //! governors, on an observer with a slack rope:
 //!
-//! | variant | estimates | governs |
-//! |---|---|---|
-//! | `slack` | with the observer of backlash, whose gap is the slack rope | keeps the rope taut, takes it up at the approach speed, damps the oscillation |
-//! | `plain` | with the observer of backlash | by a plain speed loop |
-//! | `semi-implicit` | with two masses, a rope that pushes | by the speed loop with its damping |
-//! | `rigid` | with one mass | by the speed loop with its damping |
+//! - `slack` estimates with the observer of backlash, whose gap is the slack rope. It keeps the rope taut, takes it up
+//!   at the approach speed, and damps the oscillation.
+//! - `plain` estimates with the observer of backlash and governs by a plain speed loop.
+//! - `semi-implicit` estimates with two masses, a rope that pushes, and governs by the speed loop with its damping.
+//! - `rigid` estimates with one mass and governs by the speed loop with its damping.
 
 use driveline::configure::{HasBacklash, Machine, Rating};
 use driveline::design::{

@@ -49,23 +49,27 @@
 //! A tolerance is a number or a range. A number is a ratio's deviation either way, a difference either way, or the
 //! largest amplitude: see [`factor`] for the keys and their units.
 //!
-//! | kind | keys (those in brackets may be left out) |
-//! |---|---|
-//! | `motor`, `rotor` | `inertia` (kg m2) |
-//! | `shaft` | `stiffness` (N m/rad), (`damping` (N m s/rad)) |
-//! | `section` | `length` (m), `diameter` (m), (`end` diameter (m)), (`bore` (m)), (`modulus` (Pa), steel's), (`damping` (N m s/rad)); pieces in a row are a stepped shaft |
-//! | `crank` | `inertia`, `radius` (m), `rod` (m), `slider` (kg), (`rod_mass`, `rod_centre` (m) from the pin, `rod_inertia`); the mean over a turn |
-//! | `worm` | `ratio`, `efficiency`, `back_efficiency` with the load driving |
-//! | `planetary` | `sun_teeth`, `ring_teeth`, `module` (m), `planets`, `sun`, `planet`, `carrier` (kg m2), `planet_mass` (kg), (`efficiency`, `input` the member on the motor's side, `held`: `sun`, `ring` or `carrier`; the sun and the ring where they are left out; `ring` (kg m2)) |
-//! | `belt` | `driving`, `driven` (m), `stiffness` (N/m) of a strand, (`damping` (N s/m)), (`efficiency`) |
-//! | `screw` | `lead` (m) a turn |
-//! | `swinging` | `mass` (kg), `length` (m) of the pendulum |
-//! | `slack` | `travel` (m) along the load's path |
-//! | `gear` | `ratio` motor speed over load speed, (`efficiency`) |
-//! | `drum` | `diameter` (m) |
-//! | `rope` | `falls`, `stiffness` (N/m) at the load, (`damping` (N s/m)) |
-//! | `lifted`, `driven` | `mass` (kg); a lifted one has weight |
-//! | `backlash` | `gap` (rad), the whole free angle |
+//! The kinds of element and their keys; those in brackets may be left out:
+//!
+//! - **`motor`, `rotor`**: `inertia` (kg m2)
+//! - **`shaft`**: `stiffness` (N m/rad), (`damping` (N m s/rad))
+//! - **`section`**: `length` (m), `diameter` (m), (`end` diameter (m)), (`bore` (m)), (`modulus` (Pa), steel's),
+//!   (`damping` (N m s/rad)); pieces in a row are a stepped shaft
+//! - **`crank`**: `inertia`, `radius` (m), `rod` (m), `slider` (kg), (`rod_mass`, `rod_centre` (m) from the pin,
+//!   `rod_inertia`); the mean over a turn
+//! - **`worm`**: `ratio`, `efficiency`, `back_efficiency` with the load driving
+//! - **`planetary`**: `sun_teeth`, `ring_teeth`, `module` (m), `planets`, `sun`, `planet`, `carrier` (kg m2),
+//!   `planet_mass` (kg), (`efficiency`, `input` the member on the motor's side, `held`: `sun`, `ring` or `carrier`;
+//!   the sun and the ring where they are left out; `ring` (kg m2))
+//! - **`belt`**: `driving`, `driven` (m), `stiffness` (N/m) of a strand, (`damping` (N s/m)), (`efficiency`)
+//! - **`screw`**: `lead` (m) a turn
+//! - **`swinging`**: `mass` (kg), `length` (m) of the pendulum
+//! - **`slack`**: `travel` (m) along the load's path
+//! - **`gear`**: `ratio` motor speed over load speed, (`efficiency`)
+//! - **`drum`**: `diameter` (m)
+//! - **`rope`**: `falls`, `stiffness` (N/m) at the load, (`damping` (N s/m))
+//! - **`lifted`, `driven`**: `mass` (kg); a lifted one has weight
+//! - **`backlash`**: `gap` (rad), the whole free angle
 //!
 //! A machine with branches has, beside its chain of elements, a `[[branch]]` for each: `at`, the label of the element
 //! whose mass it stands on (a motor, rotor, crank or planetary set of the chain or of a branch before it), and
