@@ -14,8 +14,8 @@
 //! shaft torque, and its reversal for a jerk of the load.
 //!
 //! While the gear sticks, the motor's angle contains no information on the load: it only moves within its own shaft's
-//! twist. The innovation is then left out, up to the deadband, which covers such a turn. Within the deadband
-//! the residual decays: a twist that was added to it would be taken for motion in the tick that breaks the gear loose.
+//! twist. The innovation is then left out, up to the deadband, which covers such a turn. Within the deadband the
+//! residual decays: a twist that was added to it would be taken for motion in the tick that breaks the gear loose.
 //! Beyond the deadband it is kept, so that a gear that loses less than lambda, and creeps, is followed.
 
 use super::{Observer, Prediction};
