@@ -158,9 +158,12 @@ fn a_shaped_stop_leaves_less_than_a_fiftieth_of_the_swing() {
             assert!(after < 0.02 * before, "fixed: {after} of {before}");
         }
         if crane.rope == longer.rope {
-            // two parts: 7.8 % by the closed form
+            // Two parts by the closed form |sin(pi r/2)|, the frequency off by r as the root of the length: 7.3 %. The
+            // tolerance is what two parts leave of the described crane, where the closed form has nothing: by noise of
+            // the torque, counts, gap and friction 0.7 %.
+            let expected = (FRAC_PI_2 * ((NOMINAL.rope / longer.rope).sqrt() - 1.0)).sin().abs();
             let after = residual::<Zv>(&two, &crane, 7.2);
-            assert!((0.05..0.1).contains(&(after / before)), "two parts: {after} of {before}");
+            assert!((after / before - expected).abs() < 0.007, "two parts: {after} of {before}, {expected}");
         }
     }
 }
