@@ -4,9 +4,9 @@
 //! hook or a mill with its spindles uncoupled. The panel names its beginning and its end.
 //!
 //! Angle and reported torque leave one factor of a drivetrain open: with all inertias, stiffnesses and torques larger
-//! by it the motion is the same. So the inertia ratio, found over told, needs no constant of the observer: the reported
-//! torque over the ratio goes in, estimated torques times the ratio come out. They are torques as the inverter reports
-//! them. A torque constant that is off by 5 % leaves 5 % of them in error, and its motion is right.
+//! by it the motion is the same. So the inertia ratio, identified over described, needs no constant of the observer:
+//! the reported torque over the ratio goes in, estimated torques times the ratio come out. They are as the inverter
+//! reports them. A torque constant that is off by 5 % leaves 5 % of them in error, and its motion is right.
 //!
 //! A *test weight* closes that factor. Its inertia is known, and a second run with it finds it in units of the reported
 //! torque: the torque constant is the one over the other. Both inertias are then those of the torque at the shaft.
