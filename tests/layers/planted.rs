@@ -1,5 +1,7 @@
 //! The check itself, on sources that have the faults it looks for.
 
+use std::path::Path;
+
 use super::faults;
 use super::tree::Tree;
 
@@ -95,6 +97,19 @@ fn what_is_compiled_only_for_unit_tests_does_not_count() {
         ("b", "use crate::a::Ground; pub struct Top(Ground);"),
     ];
     assert_eq!(found(&sources), Vec::<String>::new());
+}
+
+/// Nor does a file of unit tests, which is read all the same.
+#[test]
+fn a_file_of_unit_tests_does_not_count() {
+    let tree = Tree::planted(&[
+        ("", "mod a; mod b;"),
+        ("a", "pub struct Ground; #[cfg(test)] mod tests;"),
+        ("a::tests", "use crate::b::Top; fn t(_: Top) {}"),
+        ("b", "use crate::a::Ground; pub struct Top(Ground);"),
+    ]);
+    assert!(tree.reads(Path::new("a::tests")));
+    assert_eq!(faults(&tree), Vec::<String>::new());
 }
 
 #[test]

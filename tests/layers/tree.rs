@@ -116,6 +116,17 @@ impl Tree {
         self.walk(find, file, &module, tokens, true);
     }
 
+    /// A file that an item only for unit tests names: known, and without content.
+    fn file_of_tests(&mut self, find: Find, module: &Names, item: &[TokenTree]) {
+        let [.., word, TokenTree::Ident(name), end] = item else { return };
+        if word.to_string() == "mod" && end.to_string() == ";" {
+            let child: Names = module.iter().cloned().chain([name.to_string()]).collect();
+            let (path, _) = find(&child).unwrap_or_else(|| panic!("module {} has no file", child.join("::")));
+            self.modules.insert(child.clone(), Module { file: self.files.len(), ..Module::default() });
+            self.files.push((child, path));
+        }
+    }
+
     /// Reads tokens of a module; `outside` of bodies it finds definitions.
     fn walk(&mut self, find: Find, file: usize, module: &Names, tokens: TokenStream, outside: bool) {
         let tokens: Vec<TokenTree> = tokens.into_iter().collect();
@@ -125,7 +136,9 @@ impl Tree {
             let word = token.to_string();
             match token {
                 TokenTree::Punct(_) if word == "#" && is_for_tests(tokens.get(at + 1)) => {
-                    at = after_item(&tokens, at + 2);
+                    let end = after_item(&tokens, at + 2);
+                    self.file_of_tests(find, module, &tokens[at + 2..end]);
+                    at = end;
                     continue;
                 }
                 TokenTree::Group(group) => self.walk(find, file, module, group.stream(), false),
