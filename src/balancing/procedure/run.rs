@@ -1,0 +1,44 @@
+//! A run: readings, and the speed of each.
+
+use crate::balancing::error::Error;
+use crate::balancing::scalar::{Complex, Scalar, given, zero};
+
+/// A run: a reading for each row, and the speed it was taken at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+// Not logged: the complex numbers of `nalgebra` have no `Format`.
+pub struct Run<T: Scalar, const ROWS: usize> {
+    /// The readings.
+    pub(crate) readings: [Complex<T>; ROWS],
+    /// Speed of each (rad/s).
+    pub(crate) speeds: [T; ROWS],
+}
+
+impl<T: Scalar, const ROWS: usize> Run<T, ROWS> {
+    /// A run of readings, each with its speed (rad/s).
+    ///
+    /// # Errors
+    /// [`Error::Size`], [`Error::ReadingMissing`] where there are fewer readings than speeds or the other way round,
+    /// [`Error::Reading`] for a value that is not a number.
+    pub fn new(readings: &[Complex<T>], speeds: &[T]) -> Result<Self, Error> {
+        if readings.len() != speeds.len() {
+            return Err(Error::ReadingMissing { row: readings.len().min(speeds.len()) });
+        }
+        if readings.is_empty() || readings.len() > ROWS {
+            return Err(Error::Size);
+        }
+        let mut run = Run { readings: [zero(); ROWS], speeds: [T::zero(); ROWS] };
+        let places = run.readings.iter_mut().zip(&mut run.speeds);
+        for (row, ((to, at), (reading, speed))) in places.zip(readings.iter().zip(speeds)).enumerate() {
+            if !(given(*reading) && *speed > T::zero() && speed.is_finite()) {
+                return Err(Error::Reading { row });
+            }
+            (*to, *at) = (*reading, *speed);
+        }
+        Ok(run)
+    }
+
+    /// The readings, zeros behind the last.
+    pub fn readings(&self) -> &[Complex<T>; ROWS] {
+        &self.readings
+    }
+}
