@@ -1,0 +1,99 @@
+//! Blocks made by hand, with mean, variance and drift in closed form.
+
+use super::*;
+use crate::settings::PhasorSettings;
+
+#[test]
+fn roots_are_those_of_the_processor() {
+    for n in 1..5000 {
+        let x = f32::from_bits(n * 400_000);
+        // three of Newton's steps from 3 % leave rounding
+        let exact = if x < f32::MIN_POSITIVE { 0.0 } else { x.sqrt() };
+        assert!((root(x) - exact).abs() <= 2e-7 * exact, "{x}");
+    }
+    assert_eq!((root(0.0), root(-1.0), root(f32::NAN), root(f32::INFINITY)), (0.0, 0.0, 0.0, f32::INFINITY));
+}
+
+/// Blocks of one turn of ten ticks, with these growths of sine and cosine, in units of pi.
+fn blocks<const EDGES: usize>(growths: [[f32; 2]; EDGES]) -> ([Edge<f32, 1>; EDGES], PhasorsConfig<f32, 1>) {
+    let mut config = PhasorsConfig::<f32, 1>::new(&PhasorSettings::DIRECT, [1.0]);
+    config.block = 1;
+    let (mut sums, mut ticks) = ([0.0; 2], 0);
+    let edges = growths.map(|[sine, cosine]| {
+        sums = [sums[0] + cosine * core::f32::consts::PI, sums[1] + sine * core::f32::consts::PI];
+        ticks += 10;
+        Edge { sums: [sums], ticks, past: 0 }
+    });
+    (edges, config)
+}
+
+/// Four blocks along a line of slope r, and e beside it: e (1, -1, -1, 1) has no mean and no slope. Its variance is
+/// 4 e^2 over two, the sum of the places' squares is five.
+#[test]
+fn a_line_through_four_blocks() {
+    let (r, e) = (0.1, 0.01);
+    let block = |place: f32, beside: f32| [2.0 * (1.0 + r * place + e * beside), 0.0];
+    let values = [[0.0; 2], block(-1.5, 1.0), block(-0.5, -1.0), block(0.5, -1.0), block(1.5, 1.0)];
+    let (edges, config) = blocks(values);
+    let reading = Reading::between(&edges, 0, &config).unwrap();
+    // rounding of single precision, of sums of 25
+    assert!((reading.scatter - 2.0_f32.sqrt() * e).abs() < 1e-5, "{reading:?}");
+    assert!((reading.drift - 3.0 * (r - 3.0 * e * 0.4_f32.sqrt())).abs() < 1e-5, "{reading:?}");
+    assert_eq!((reading.turns, reading.ticks, reading.speed_spread), (4, 10.0, 0.0));
+}
+
+/// A tick of a tenth of a turn holds a sample for 36 degrees: e^{-ix} x/sin x, with x of 18.
+#[test]
+fn a_block_is_its_phasor() {
+    let (edges, config) = blocks([[0.0; 2], [3.0, 4.0]]);
+    let reading = Reading::between(&edges, 0, &config).unwrap();
+    let x = 0.1 * core::f32::consts::PI;
+    let expected = Phasor { re: 3.0, im: 4.0 }.times(Phasor { re: x / x.tan(), im: -x });
+    // rounding of single precision
+    assert!(reading.phasor.less(expected).amplitude() < 1e-5, "{reading:?} {expected:?}");
+    assert_eq!((reading.variance, reading.drift, reading.scatter), (0.0, 0.0, 0.0));
+    // two blocks are a line, and nothing is beside it
+    let (edges, config) = blocks([[0.0; 2], [3.0, 4.0], [3.5, 4.0]]);
+    let reading = Reading::between(&edges, 0, &config).unwrap();
+    assert_eq!((reading.variance, reading.scatter), (0.0, 0.0));
+}
+
+/// The first zero lies half a tick before the end of its tick, the second at the end: ten and a half.
+#[test]
+fn a_turn_begins_where_the_zero_lies() {
+    let (mut edges, config) = blocks([[0.0; 2], [1.0, 0.0]]);
+    edges[0].past = config.turning.turn / 20;
+    // a unit of 2^26 on a turn
+    assert!((Reading::between(&edges, 0, &config).unwrap().ticks - 10.5).abs() < 1e-5);
+}
+
+/// At an eighth of a turn x is 22.5 degrees, whose cotangent is 1 and the root of two.
+#[test]
+fn a_held_sample() {
+    let x = core::f32::consts::FRAC_PI_8;
+    let found = held(0.125);
+    // the terms left out, and rounding
+    assert!((found.re - x * (1.0 + core::f32::consts::SQRT_2)).abs() < 3e-7 && found.im == -x, "{found:?}");
+}
+
+/// An amplitude of a quarter of the floor counts a quarter of its scatter and drift of a fifth; zero has none.
+#[test]
+fn the_floor_is_an_amplitude() {
+    let reading = |amplitude: f32, drift: f32| Reading {
+        phasor: Phasor { re: amplitude, im: 0.0 },
+        variance: 0.01,
+        turns: 1,
+        ticks: 10.0,
+        speed_spread: 0.0,
+        drift,
+        scatter: 0.0,
+    };
+    let limits = |scatter: f32, drift: f32| Steadiness { speed: 0.01, drift, scatter, floor: 2.0 };
+    assert!(reading(0.5, 0.2).accept(false, &limits(0.051, 0.051)).is_ok());
+    let refused = reading(0.5, 0.2).accept(false, &limits(0.049, 0.051));
+    assert!(matches!(refused, Err(ReadingFault::Scattered { .. })), "{refused:?}");
+    let refused = reading(0.5, 0.2).accept(false, &limits(0.051, 0.049));
+    assert_eq!(refused, Err(ReadingFault::Drifting { drift: 0.2 }));
+    let none = Steadiness { floor: 0.0, ..limits(0.05, 0.05) };
+    assert!(reading(0.0, f32::INFINITY).accept(false, &none).is_ok());
+}

@@ -1,0 +1,97 @@
+//! Missed ticks that are counted, a lost angle that is found by two others, and the seal.
+
+use super::{Config, Drive, Limits, Seal};
+use crate::fault::Faults;
+use crate::observer::{RigidConfig, RigidObserver};
+use crate::sample::Sample;
+
+const NONE_YET: i32 = Drive::<f64, RigidObserver<f64>>::NONE_YET;
+const ONE: i32 = Drive::<f64, RigidObserver<f64>>::ONE;
+
+/// 2^32 per turn and ticks as units of angle and time, an inertia of one: no encoder, gains of a third.
+const CONFIG: Config<f64, RigidConfig<f64>> = Config {
+    limits: Limits { torque: 10.0, setpoint: 1e6, innovation: 1000.0, frozen_turn: 10.0, max_coast: 3 },
+    observer: RigidConfig {
+        acceleration: 1.0,
+        turn: 0.5,
+        correction: [0.3, 0.0],
+        angle_correction: -0.3,
+        speed: 1.0,
+        load_share: 0.5,
+    },
+    fluctuation: (),
+    governor: (),
+    balancer: (),
+};
+
+fn tick(drive: &mut Drive<f64, RigidObserver<f64>>, angle: u32) -> (Faults, i32) {
+    let faults = drive.tick(&CONFIG, &Sample { angle, torque: 0.0, setpoint: 0.0 }).faults;
+    (faults, drive.coasted)
+}
+
+#[test]
+fn missed_ticks_count_up_and_good_ones_count_them_down() {
+    let mut drive = Drive::new(&CONFIG, 0);
+    assert_eq!(tick(&mut drive, 5000), (Faults::ANGLE_JUMP, 1));
+    assert_eq!(tick(&mut drive, 9000), (Faults::ANGLE_JUMP, 2));
+    assert_eq!(tick(&mut drive, 0), (Faults::NONE, 1));
+    assert_eq!(tick(&mut drive, 0), (Faults::NONE, 0));
+    assert_eq!(tick(&mut drive, 0), (Faults::NONE, 0));
+}
+
+#[test]
+fn two_angles_that_differ_by_what_is_predicted_let_the_estimates_stand() {
+    let mut drive = Drive::new(&CONFIG, 0);
+    for missed in 1..=3 {
+        assert_eq!(tick(&mut drive, 70_000), (Faults::ANGLE_JUMP, missed));
+    }
+    let lost = Faults::ANGLE_JUMP | Faults::ANGLE_LOST;
+    assert_eq!(tick(&mut drive, 70_000), (Faults::ANGLE_JUMP, NONE_YET));
+    assert_eq!(tick(&mut drive, 70_000), (lost, ONE));
+    // The machine stands: the second angle is two counts beside the first.
+    assert_eq!(tick(&mut drive, 70_009), (lost, 3));
+    assert_eq!(tick(&mut drive, 70_009), (Faults::NONE, 2));
+}
+
+#[test]
+fn two_angles_that_differ_by_more_give_the_speed() {
+    let mut drive = Drive::new(&CONFIG, 0);
+    let mut angle = 0;
+    for _ in 0..5 {
+        angle += 5000;
+        tick(&mut drive, angle);
+    }
+    assert_eq!(tick(&mut drive, angle + 5000).0, Faults::ANGLE_JUMP | Faults::ANGLE_LOST);
+    let command = drive.tick(&CONFIG, &Sample { angle: angle + 10_000, torque: 0.0, setpoint: 0.0 });
+    assert_eq!((command.faults, drive.estimate(&CONFIG).motor_speed), (Faults::NONE, 5000.0));
+}
+
+#[test]
+fn without_a_governor_the_last_plausible_torque_stands_in() {
+    let mut drive = Drive::<f64, RigidObserver<f64>>::new(&CONFIG, 0);
+    drive.tick(&CONFIG, &Sample { angle: 0, torque: 1.0, setpoint: 0.0 });
+    for torque in [f64::NAN, f64::INFINITY, -10.1] {
+        let command = drive.tick(&CONFIG, &Sample { angle: 0, torque, setpoint: 0.0 });
+        assert_eq!((command.faults, drive.commanded), (Faults::TORQUE, 1.0));
+    }
+}
+
+/// Memory of zeros and of equal bytes is what a caller forgets to initialise.
+#[test]
+fn a_seal_is_whole_in_every_state_of_a_drive_and_in_no_memory_of_equal_bytes() {
+    type Sealed = Drive<f64, RigidObserver<f64>, (), (), (), 0x5b00_5b00>;
+    let mut drive = Sealed::new(&CONFIG, 0);
+    assert_eq!(Sealed::seal(&CONFIG, drive.coasted as u32), Seal::Sighted, "new");
+    let mut tick = |angle| {
+        drive.tick(&CONFIG, &Sample { angle, torque: 0.0, setpoint: 0.0 });
+        Sealed::seal(&CONFIG, drive.coasted as u32)
+    };
+    for missed in 0..3 {
+        assert_eq!(tick(70_000), Seal::Sighted, "{missed}");
+    }
+    assert_eq!([tick(70_000), tick(70_000)], [Seal::Lost; 2]);
+    assert_eq!([tick(70_009), tick(70_009)], [Seal::Sighted; 2]);
+    for byte in 0..=255 {
+        assert_eq!(Sealed::seal(&CONFIG, u32::from_ne_bytes([byte; 4])), Seal::Broken, "{byte}");
+    }
+}

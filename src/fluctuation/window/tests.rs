@@ -1,0 +1,218 @@
+//! The series of slowness and torque in closed form, and windows that can and cannot be used.
+
+use super::super::CycleConfig;
+use super::*;
+
+/// A slowness of one with this first order.
+fn of(cos: f64, sin: f64) -> Series {
+    let mut series = Series::constant(1.0);
+    series.orders[0] = Order { cos, sin };
+    series
+}
+
+fn ripple(cos: f64, sin: f64) -> Ripple {
+    Ripple::of(of(cos, sin), 10.0, 0.0, TAU, 1, 1)
+}
+
+/// The antiderivative of `e^(j n theta)` over the ticks, times `x/sin x - 1`.
+#[test]
+fn ticks_are_beyond_their_integral_as_by_the_closed_form() {
+    for (turned, speed, n) in [(0.4, 0.02, 1.0), (1.3, 0.2, 3.0), (2.0, 0.05, 9.0), (0.7, 0.6, 1.0)] {
+        let (cos, sin) = Part { turned, speed }.sampled(&Series::constant(1.0), n);
+        let x: f64 = 0.5 * n * speed;
+        let share = (x / x.sin() - 1.0) / (n * speed);
+        // the next term of x/sin x, and what some units in the last place of the sine leave of a small difference
+        let left = (127.0 / 604_800.0 * x.powi(8) * 1.1 + 2e-15) / (n * speed);
+        let (s, c) = (n * turned).sin_cos();
+        assert!((cos - share * s).abs() < left && (sin + share * c).abs() < left, "{cos} {sin} {share}");
+    }
+    // the turn of a tick by the slowness there
+    let slow = Part { turned: 0.0, speed: 0.2 }.sampled(&of(1.0, 0.0), 1.0);
+    assert_eq!(slow, Part { turned: 0.0, speed: 0.1 }.sampled(&Series::constant(1.0), 1.0));
+}
+
+/// Ticks spread evenly over a bin: the mean of `cos(n e)` is `sin(h/2)/(h/2)`, with `h` the order's turn over it.
+#[test]
+fn a_bin_counts_its_ticks_as_the_integral_over_it() {
+    let ticks = 12_000.0;
+    let mut window = Window { bins: [Bin::<f32>::default(); 8], edges: [Edge::default(); 4], cycles: 1, forward: true };
+    // the mean of the distances is zero, of their squares a twelfth; each was rounded down
+    let bin = &mut window.bins[2];
+    (bin.ticks, bin.first) = (12_000, -6_000);
+    bin.second = (4096.0 * ticks / 12.0 + ticks / 3.0) as _;
+    for n in [1.0, 2.0] {
+        let h = n * TAU / 8.0;
+        let found = window.counted(n);
+        let expected = ticks * (0.5 * h).sin() / (0.5 * h);
+        let (s, c) = (n * TAU / 8.0 * 2.5).sin_cos();
+        // the polynomial's next term, h^6/322560
+        let left = ticks * f64::powi(h, 6) / 3e5;
+        assert!((found.cos - expected * c).abs() < left && (found.sin - expected * s).abs() < left, "{n} {found:?}");
+    }
+    // all of them at the bin's end, where the parabola and the cubic are farthest off: by h^3 (1/24 - 1/40)/2
+    let bin = &mut window.bins[2];
+    (bin.first, bin.second) = (512 * 12_000 - 6_000, (4096.0 * ticks / 4.0 + ticks / 3.0 - 64.0 * ticks / 2.0) as _);
+    let found = window.counted(1.0);
+    let (s, c) = (TAU / 8.0 * 3.0).sin_cos();
+    let off = (found.cos / ticks - c).hypot(found.sin / ticks - s);
+    assert!(off < f64::powi(TAU / 8.0, 3) / 120.0, "{off}");
+}
+
+fn config(turns: u32, torque: f64) -> WaveformConfig {
+    let cycle = CycleConfig {
+        length: 1 << 30,
+        last_segment: 4 * turns - 1,
+        whole: 0,
+        part: 0,
+        divisor: 1,
+        angle: TAU * f64::from(turns),
+        period: 0.01,
+        speed: 1.0,
+        torque,
+    };
+    WaveformConfig { cycle, cycles: 1, scale: 1 << 21, per_segment: 2 }
+}
+
+/// Ticks spread evenly over a bin.
+fn even(ticks: u32) -> Bin<f64> {
+    let second = (4096.0 / 12.0 + 1.0 / 3.0) * f64::from(ticks);
+    Bin { ticks, first: -(ticks as i32) / 2, second: second as u32, torque: 0.0 }
+}
+
+/// A steady motion of so many ticks, ends of cycles in whole ticks.
+fn steady(cycles: u32, ticks: u32, speed: f64) -> Window<f64, 8> {
+    let edges = [0, ticks / cycles, ticks - ticks / cycles, ticks].map(|tick| Edge { tick, speed, ..Edge::default() });
+    Window { bins: [even(ticks / 8); 8], edges, cycles, forward: speed >= 0.0 }
+}
+
+/// The lateness is the integral of the slowness, by hand; what is beyond it alternates from bin to bin. The angle
+/// that it is counted from does not matter.
+#[test]
+fn the_residue_is_what_the_orders_leave() {
+    let mut slowness = Series::constant(1.0);
+    slowness.orders[0] = Order { cos: 0.1, sin: 0.05 };
+    slowness.orders[1] = Order { cos: -0.04, sin: 0.06 };
+    let late =
+        |theta: f64| 0.1 * theta.sin() - 0.05 * theta.cos() - 0.02 * (2.0 * theta).sin() - 0.03 * (2.0 * theta).cos();
+    let (total, apart) = (1e9, 0.01);
+    let mut window = steady(1, 8, 1.0);
+    let mut before = 0;
+    for (index, bin) in (1_u32..).zip(&mut window.bins) {
+        let theta = TAU * f64::from(index) / 8.0;
+        // none of it at the cycle's end
+        let left = if index % 2 == 0 { 0.0 } else { 2.0 * apart };
+        let counted = ((theta + late(theta) - late(TAU) + left) / TAU * total) as u32;
+        bin.ticks = counted - before;
+        before = counted;
+    }
+    // a tick of 10^9
+    assert!((window.residue(&slowness) - apart).abs() < TAU / total, "{}", window.residue(&slowness));
+    // a hundredth of a cycle of two turns, in every other bin: the mean and half of it either way
+    let mut window = steady(2, 8_000, 1.0);
+    for pair in window.bins.chunks_mut(2) {
+        (pair[0], pair[1]) = (even(920), even(1_080));
+    }
+    let ripple = window.ripple(&config(2, 1.0), 1).unwrap();
+    // a bin's squares are cut to whole units, of 4,096 to a square bin
+    assert!((ripple.quality.residue / (0.005 * 2.0 * TAU) - 1.0).abs() < 1e-3, "{ripple:?}");
+}
+
+/// A speed against the mean at any end; twelve ticks to a segment, and 72 to a turn in few cycles.
+#[test]
+fn windows_that_cannot_be_used() {
+    for sign in [1.0, -1.0] {
+        let ripple = steady(2, 8_000, sign).ripple(&config(1, 1.0), 1).unwrap();
+        assert!((ripple.mean / (sign * TAU / 40.0) - 1.0).abs() < 1e-12, "{ripple:?}");
+        for edge in 0..4 {
+            for (speed, error) in [(0.0, None), (-1e-9 * sign, Some(Unusable::Trend))] {
+                let mut window = steady(2, 8_000, sign);
+                window.edges[edge].speed = speed;
+                assert_eq!(window.ripple(&config(1, 1.0), 1).err(), error, "{edge} {speed}");
+            }
+        }
+    }
+    for (turns, cycles, ticks, is_right) in [
+        (1, 2, 144, true),
+        (1, 2, 143, false),
+        (1, 7, 504, true),
+        (1, 7, 503, false),
+        (1, 8, 384, true),
+        (1, 8, 383, false),
+        (2, 8, 1_152, true),
+        (2, 8, 1_151, false),
+    ] {
+        let found = steady(cycles, ticks, 1.0).ripple(&config(turns, 1.0), 1);
+        assert_eq!(found.err(), (!is_right).then_some(Unusable::Ticks), "{turns} {cycles} {ticks}");
+    }
+}
+
+/// With `slowness` 2 and an order of `sin(theta)/2` the mean is longer by 1, and order 1 has -2 j by itself and
+/// -1/4 by half of the order at 2 theta. An order is twice its integral over the mean's.
+#[test]
+fn a_trend_shows_in_every_order() {
+    let ramp = Ramp { slowness: 5.0, slope: 3.0, ..Ramp::default() };
+    assert_eq!([0.0, 1.0, 2.0, -2.0].map(|k| ramp.integral(k)), [(0.0, 0.0), (3.0, -5.0), (0.75, -2.5), (0.75, 2.5)]);
+    let ramp = Ramp { slowness: 2.0, ..Ramp::default() };
+    let found = ramp.taken_off(&of(0.0, 0.5), &of(4.75, 3.0), 9.0, 1);
+    assert_eq!((found.mean, found.order(1)), (1.0, Order { cos: 1.0, sin: 1.0 }));
+}
+
+/// The mean of a sine over a bin is that of its ends' integral. A bin without a tick has the torque of the one
+/// before it, the first that of the last.
+#[test]
+fn the_torque_is_that_of_the_bins() {
+    let mut window = steady(1, 8_000, 1.0);
+    let width = TAU / 8.0;
+    for (index, bin) in (0_u32..).zip(&mut window.bins) {
+        let [from, to] = [index, index + 1].map(|index| width * f64::from(index));
+        bin.torque = 1_000.0 * (5.0 + (to.sin() - from.sin() + 0.5 * (from.cos() - to.cos())) / width);
+    }
+    let found = window.motor_torque(&config(1, 2.0), 1);
+    // some roundings
+    let off = [found.mean - 10.0, found.order(1).cos - 2.0, found.order(1).sin - 1.0];
+    assert!(off.iter().all(|off| off.abs() < 1e-13), "{found:?}");
+    for (index, bin) in (0_u32..).zip(&mut window.bins) {
+        let ticks = if index == 0 || index == 4 { 0 } else { 1_000 };
+        (bin.ticks, bin.torque) = (ticks, f64::from(ticks * index));
+    }
+    // 7, 1, 2, 3, 3, 5, 6 and 7
+    assert_eq!(window.motor_torque(&config(1, 2.0), 0).mean, 2.0 * 34.0 / 8.0);
+}
+
+#[test]
+fn a_speed_against_the_mean_is_seen() {
+    let mut ripple = ripple(0.1, 0.0);
+    assert!(ripple.turns_one_way());
+    for (speed, mean, is_so) in [(0.0, 10.0, false), (-1.0, 10.0, false), (1.0, -10.0, false), (1.0, 10.0, true)] {
+        (ripple.motor.min.speed, ripple.mean) = (speed, mean);
+        ripple.motor.max.speed = mean;
+        assert_eq!(ripple.turns_one_way(), is_so, "{speed} {mean}");
+    }
+}
+
+/// The slowness is least a little before the cycle's end, or at its beginning.
+#[test]
+fn extremes_are_within_the_cycle() {
+    for (phase, expected) in [(-0.001, TAU - 0.001), (0.001, 0.001), (0.0, 0.0)] {
+        let (sin, cos) = f64::sin_cos(phase);
+        let angle = ripple(-0.1 * cos, -0.1 * sin).motor.max.angle;
+        // Newton's method ends within rounding of a turn
+        assert!((angle - expected).abs() < 1e-14, "{phase}: {angle}");
+    }
+}
+
+/// A flywheel where delta is more than permissible, a governor where the drift is more than so much of the mean.
+#[test]
+fn remedies_are_for_what_is_beyond_the_limits() {
+    use crate::fluctuation::flywheel::Remedy;
+    let mut ripple = ripple(0.1, 0.0);
+    for (delta, acceleration, expected) in [
+        (0.25, 2.5, Remedy::Nothing),
+        (0.26, 2.5, Remedy::Flywheel),
+        (0.25, -2.6, Remedy::Governor),
+        (0.26, 2.6, Remedy::Both),
+    ] {
+        (ripple.motor.delta, ripple.acceleration, ripple.mean) = (delta, acceleration, -10.0);
+        assert_eq!(ripple.remedy(0.25, 0.25), expected, "{delta} {acceleration}");
+    }
+}
