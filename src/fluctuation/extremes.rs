@@ -11,96 +11,21 @@
 //! makes the largest value too large and the least too small by two or three of its standard deviations. Where delta is
 //! not far above that, take a [`super::Waveform`].
 
+mod peak;
+mod reading;
+
 use core::f64::consts::{PI, TAU};
+
+pub use peak::Ranked;
+pub use reading::{Extreme, Fluctuations, Reading};
 
 use super::position::{Position, RADIANS, Way};
 use super::{CycleConfig, Edge, Fluctuation};
-use crate::number::{Fixed, Number};
 use crate::sample::Estimate;
+use peak::{Peak, SEGMENTS, Speed, place};
 
 /// Ticks between two samples of a speed.
 const SAMPLE: f64 = 4.0;
-
-/// Comparison as integers, beside the operations of [`Number`].
-pub trait Ranked: Number {
-    /// The number as an integer that rises with it among numbers of one sign; that of a float below zero falls.
-    type Rank: Copy + Default + Ord + core::fmt::Debug;
-    /// The number as an integer to be compared with others of its sign; that of a NaN is beyond infinity.
-    fn rank(self) -> Self::Rank;
-    /// The number of a rank.
-    fn of_rank(rank: Self::Rank) -> Self;
-}
-
-// The bits of a float without the sign rise with the magnitude.
-macro_rules! ranked {
-    ($number:ident, $rank:ident) => {
-        impl Ranked for $number {
-            type Rank = $rank;
-
-            #[inline(always)]
-            fn rank(self) -> $rank {
-                self.to_bits() as $rank
-            }
-
-            #[inline(always)]
-            fn of_rank(rank: $rank) -> Self {
-                $number::from_bits(rank as _)
-            }
-        }
-    };
-}
-
-ranked!(f32, i32);
-ranked!(f64, i64);
-ranked!(Fixed, i32);
-
-/// An extreme as the tick keeps it: three samples, and where the last of them was.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-struct Peak<R> {
-    value: R,
-    /// The extreme before: on the way to a peak, the sample before.
-    before: R,
-    after: R,
-    /// The angle (2^-32 turn), its last six bits those of the segment's number.
-    place: u32,
-}
-
-/// Bits of a place that are the segment's.
-const SEGMENTS: u32 = 63;
-
-/// The angle and the segment in one.
-#[inline(always)]
-fn place(angle: u32, segment: u32) -> u32 {
-    (angle & !SEGMENTS) | (segment & SEGMENTS)
-}
-
-/// The extremes of one speed.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-struct Speed<R> {
-    last: R,
-    max: Peak<R>,
-    min: Peak<R>,
-}
-
-impl<R: Copy + Ord> Speed<R> {
-    #[inline(always)]
-    fn follow(&mut self, value: R, place: impl Fn() -> u32) {
-        let middle = core::mem::replace(&mut self.last, value);
-        if middle > self.max.value {
-            self.max = Peak { value: middle, before: self.max.value, after: value, place: place() };
-        } else if middle < self.min.value {
-            self.min = Peak { value: middle, before: self.min.value, after: value, place: place() };
-        }
-    }
-
-    /// Start of the next cycle: the last speed.
-    #[inline(always)]
-    fn fresh(&self, place: u32) -> Peak<R> {
-        Peak { value: self.last, before: self.last, after: self.last, place }
-    }
-}
 
 /// Work of the ticks between the samples: one of these each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -466,64 +391,6 @@ impl<N: Ranked> Extremes<N> {
         // The tick at a cycle's end that is found before it.
         if place - PI > about { place - TAU } else { place }
     }
-}
-
-/// A largest or least speed.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Extreme {
-    /// Speed (rad/s).
-    pub speed: f64,
-    /// Where in the cycle, from 0 to less than the cycle's angle (rad).
-    pub angle: f64,
-}
-
-/// How far a speed swings in a cycle [Notes ch. 5].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Fluctuations {
-    /// The largest speed.
-    pub max: Extreme,
-    /// The least speed.
-    pub min: Extreme,
-    /// (max + min)/2 (rad/s).
-    pub arithmetic_mean: f64,
-    /// (max - min) over the mean by time.
-    pub delta: f64,
-    /// (max - min) over the arithmetic mean.
-    pub delta_arithmetic: f64,
-}
-
-impl Fluctuations {
-    /// From the extremes and the mean by time; a delta over no mean at all is infinite or not a number.
-    pub fn of(max: Extreme, min: Extreme, mean: f64) -> Self {
-        let arithmetic_mean = 0.5 * (max.speed + min.speed);
-        let swing = max.speed - min.speed;
-        Fluctuations {
-            max,
-            min,
-            arithmetic_mean,
-            delta: swing / mean.abs(),
-            delta_arithmetic: swing / arithmetic_mean.abs(),
-        }
-    }
-}
-
-/// One cycle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Reading {
-    /// Mean by time (rad/s), of motor and load alike; negative backwards.
-    pub mean: f64,
-    /// The mean less that of the cycle before (rad/s): the part that is not periodic, which a governor mends and a
-    /// flywheel does not.
-    pub change: Option<f64>,
-    /// How long the cycle took (s).
-    pub duration: f64,
-    /// The motor.
-    pub motor: Fluctuations,
-    /// The load.
-    pub load: Fluctuations,
 }
 
 #[cfg(test)]
