@@ -14,7 +14,7 @@ use super::position::{Position, Way};
 use super::{Bin, Edge, Fluctuation, Summed, WaveformConfig, Window};
 use crate::sample::Estimate;
 
-/// Ticks that a window may last, so that no bin overflows: 419 s at 10 kHz.
+/// Ticks that a window may last, so that no bin's sum of the distances overflows: 419 s at 10 kHz.
 const LONGEST: u32 = 1 << 22;
 
 /// Binary places of a bin in the upper word of an angle times the scale.
@@ -175,7 +175,7 @@ impl<N: Summed, const BINS: usize> Waveform<N, BINS> {
         if let Some(bin) = self.bins.get_mut(index) {
             // The distance from the bin's middle [2^-32 bin].
             let distance = (place << (32 - PLACES)) ^ i32::MIN;
-            let coarse = distance >> 26;
+            let coarse = distance >> 24;
             bin.ticks = bin.ticks.wrapping_add(1);
             bin.first = bin.first.wrapping_add(distance >> 22);
             bin.second = bin.second.wrapping_add((coarse * coarse) as u32);

@@ -42,13 +42,13 @@ fn step(waveform: &mut Eight, angle: u32, tick: u32) -> Slice {
 fn a_tick_counts_where_it_is_in_its_bin() {
     const BIN: u32 = 1 << 29;
     for (base, within, bin, first, second) in [
-        (0, BIN + BIN / 4 * 3, 1, 256, 256),
-        (0, BIN + BIN / 4, 1, -256, 256),
+        (0, BIN + BIN / 4 * 3, 1, 256, 64 * 64),
+        (0, BIN + BIN / 4, 1, -256, 64 * 64),
         (0, BIN + BIN / 2, 1, 0, 0),
         // behind the segment's start and beyond the cycle's end
-        (2, (BIN / 4).wrapping_neg(), 1, 256, 256),
-        (7, BIN + BIN / 4, 0, -256, 256),
-        (0, BIN, 1, -512, 1024),
+        (2, (BIN / 4).wrapping_neg(), 1, 256, 64 * 64),
+        (7, BIN + BIN / 4, 0, -256, 64 * 64),
+        (0, BIN, 1, -512, 128 * 128),
     ] {
         for (stage, ticks) in [(Stage::Filling, 2), (Stage::Waiting, 0), (Stage::Full, 0), (Stage::Void, 0)] {
             let mut waveform = Eight { base, ..new(Slice::Watch, stage) };

@@ -36,10 +36,8 @@ fn ticks_are_beyond_their_integral_as_by_the_closed_form() {
 fn a_bin_counts_its_ticks_as_the_integral_over_it() {
     let ticks = 12_000.0;
     let mut window = Window { bins: [Bin::<f32>::default(); 8], edges: [Edge::default(); 4], cycles: 1, forward: true };
-    // the mean of the distances is zero, of their squares a twelfth; each was rounded down
-    let bin = &mut window.bins[2];
-    (bin.ticks, bin.first) = (12_000, -6_000);
-    bin.second = (4096.0 * ticks / 12.0 + ticks / 3.0) as _;
+    let Bin { ticks: count, first, second, .. } = even(12_000);
+    window.bins[2] = Bin { ticks: count, first, second, torque: 0.0 };
     for n in [1.0, 2.0] {
         let h = n * TAU / 8.0;
         let found = window.counted(n);
@@ -49,13 +47,44 @@ fn a_bin_counts_its_ticks_as_the_integral_over_it() {
         let left = ticks * f64::powi(h, 6) / 3e5;
         assert!((found.cos - expected * c).abs() < left && (found.sin - expected * s).abs() < left, "{n} {found:?}");
     }
-    // all of them at the bin's end, where the parabola and the cubic are farthest off: by h^3 (1/24 - 1/40)/2
+    // all of them at the bin's end, 511.5/1024 and 127.9/256 from its middle, rounded down: there the parabola and the
+    // cubic are farthest off, by h^3 (1/24 - 1/40)/2
     let bin = &mut window.bins[2];
-    (bin.first, bin.second) = (512 * 12_000 - 6_000, (4096.0 * ticks / 4.0 + ticks / 3.0 - 64.0 * ticks / 2.0) as _);
+    (bin.first, bin.second) = (511 * 12_000, 127 * 127 * 12_000);
     let found = window.counted(1.0);
-    let (s, c) = (TAU / 8.0 * 3.0).sin_cos();
+    let (s, c) = (TAU / 8.0 * (2.5 + 511.5 / 1024.0)).sin_cos();
     let off = (found.cos / ticks - c).hypot(found.sin / ticks - s);
     assert!(off < f64::powi(TAU / 8.0, 3) / 120.0, "{off}");
+    // more than the squares have room for: an even spread, whatever their sum; here 2^19 ticks about the middle
+    window.bins[2] = Bin { ticks: 1 << 19, first: -1 << 18, second: 12_345, torque: 0.0 };
+    let (ticks, h) = (f64::from(1 << 19), TAU / 8.0);
+    let (found, expected) = (window.counted(1.0), ticks * (0.5 * h).sin() / (0.5 * h));
+    let (s, c) = (h * 2.5).sin_cos();
+    let left = ticks * f64::powi(h, 6) / 3e5;
+    assert!((found.cos - expected * c).abs() < left && (found.sin - expected * s).abs() < left, "{found:?}");
+}
+
+/// Sixteen cycles with one tick or two at the same places of a bin each: the sum is theirs.
+#[test]
+fn a_few_ticks_count_where_they_are() {
+    for places in [&[0.21][..], &[-0.37], &[-0.3, 0.3], &[-0.44, 0.1]] {
+        let mut bins = [Bin::<f32>::default(); 8];
+        for place in places {
+            bins[5].ticks += 16;
+            bins[5].first += 16 * f64::floor(place * 1024.0) as i32;
+            bins[5].second += 16 * f64::floor(place * 256.0).powi(2) as u32;
+        }
+        let window = Window { bins, edges: [Edge::default(); 4], cycles: 16, forward: true };
+        for n in [1.0, 2.0] {
+            let h = n * TAU / 8.0;
+            let (found, count) = (window.counted(n), 16.0 * places.len() as f64);
+            let sum = |of: fn(f64) -> f64| places.iter().map(|place| 16.0 * of(h * (5.5 + place))).sum::<f64>();
+            // half a unit of the distance, and of the squares half of twice the 0.44 that is rounded
+            let left = count * (h / 2048.0 + 0.5 * h * h * 0.44 / 256.0);
+            let off = (found.cos - sum(f64::cos)).hypot(found.sin - sum(f64::sin));
+            assert!(off < left, "{places:?} {n}: {off} {left}");
+        }
+    }
 }
 
 fn config(turns: u32, torque: f64) -> WaveformConfig {
@@ -73,9 +102,9 @@ fn config(turns: u32, torque: f64) -> WaveformConfig {
     WaveformConfig { cycle, cycles: 1, scale: 1 << 21, per_segment: 2 }
 }
 
-/// Ticks spread evenly over a bin.
+/// Ticks spread evenly over a bin: of whole numbers from -128 to 127 the mean square is 2^16/12 + 1/6.
 fn even(ticks: u32) -> Bin<f64> {
-    let second = (4096.0 / 12.0 + 1.0 / 3.0) * f64::from(ticks);
+    let second = (65_536.0 / 12.0 + 1.0 / 6.0) * f64::from(ticks);
     Bin { ticks, first: -(ticks as i32) / 2, second: second as u32, torque: 0.0 }
 }
 

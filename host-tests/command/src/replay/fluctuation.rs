@@ -10,8 +10,9 @@ use super::signals::turned;
 use super::window::{DIFFER, Windowed, Windows};
 use crate::recording::unwrapped;
 
-/// Bins of a cycle: enough for the highest order there is, and for a cycle of 16 turns.
-const BINS: usize = 64;
+/// Bins of a cycle: enough for the highest order there is, and for a cycle of 16 turns; so many that samples at nearly
+/// the same angles in every turn seldom share one.
+const BINS: usize = 256;
 
 /// Cycles of a steady machine whose durations differ by less, as a share.
 const EVEN: f64 = 2e-3;

@@ -417,6 +417,31 @@ fn delta_by_ticks_is_right_or_refused_at_any_speed() {
     }
 }
 
+/// The same promise where a turn has a whole number of samples, or nearly so: even motion, and one order.
+#[test]
+fn delta_by_ticks_is_right_with_a_whole_number_of_samples_to_the_turn() {
+    let folder = tempfile::tempdir().unwrap();
+    for (order, size) in [(1.0, 0.0), (1.0, 0.0025), (5.0, 0.01), (8.0, 0.01)] {
+        // of a mean speed of 1 the speed is 1 + a cos(n phi)
+        let delta = 2.0 * size;
+        for samples in [50.0, 60.0, 72.0, 72.01, 72.2, 73.0, 80.0, 96.0, 100.0, 116.0, 120.0, 128.0, 200.0, 256.0] {
+            let mut text = String::from("angle_rad\n");
+            for sample in 0..(30.0 * samples) as u32 {
+                let phi = TAU * f64::from(sample) / samples;
+                writeln!(text, "{:.9}", 0.123 + phi + size / order * (order * phi).sin()).unwrap();
+            }
+            fs::write(folder.path().join("log.csv"), text).unwrap();
+            let found = json(folder.path(), &["log.csv", "--fluctuation", "--rate", "2000"]);
+            let windows = found["windows"].as_array().unwrap();
+            assert!(windows.len() >= 2, "{samples}: {found}");
+            for window in windows {
+                let off = (window["delta"].as_f64().unwrap() - delta).abs();
+                assert!(off < 5e-4_f64.max(0.03 * delta), "order {order}, {samples} samples: {window}");
+            }
+        }
+    }
+}
+
 /// `v = 3 cos(theta + 0.5)` beside an offset and the second order, at 20.3 turns a second and 1,000 samples a second.
 #[test]
 fn a_vibrations_phasor_is_read_by_the_angle_and_by_a_mark() {
