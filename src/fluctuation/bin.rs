@@ -71,7 +71,7 @@ pub struct Bin<N: Summed> {
     pub ticks: u32,
     /// Sum of their distances from the bin's middle [2^-10 bin].
     pub first: i32,
-    /// Sum of the squares of their distances from the bin's middle [2^-16 bin2]; of more than 2^18 ticks without meaning.
+    /// Sum of the squares of their distances from the bin's middle [2^-16 bin2]; without meaning beyond 2^18 ticks.
     pub second: u32,
     /// Sum of the motor's torque.
     pub torque: N::Total,

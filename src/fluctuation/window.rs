@@ -51,9 +51,9 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
     ///
     /// The integral of a function of the angle over time is, bin by bin, that of the parabola nearest to it. At the two
     /// ends of the window the parts between a cycle's end and the first tick counted are put right. The trend of the
-    /// slowness, a sawtooth over the cycle, is taken off, as that of a steady acceleration. Where the cycle has nearly a
-    /// whole number of ticks, fewer than some five to a bin, the eighth order of 64 bins may be off by 2e-3: take more
-    /// bins, or fewer orders.
+    /// slowness, a sawtooth over the cycle, is taken off, as that of a steady acceleration. Where the cycle has nearly
+    /// a whole number of ticks, fewer than some five to a bin, the eighth order of 64 bins may be off by 2e-3: take
+    /// more bins, or fewer orders.
     ///
     /// Not for the tick: some thousand operations in `f64`, and sines.
     ///

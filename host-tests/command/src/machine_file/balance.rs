@@ -22,8 +22,8 @@
 //! - `weight_unit`: `"g"` (as without it), `"kg"`, `"g mm"`, `"kg m"`, `"oz"`, `"oz in"` or `"lb"`
 //! - `angle_unit`: `"degrees"` (as without it, but phases that look like radians are then refused) or `"radians"`
 //! - `phase_sense`: `"lead"` (as without it) or `"lag"`, the sense in which phases of readings are counted
-//! - `weight_sense`: `"with rotation"` (as without it) or `"against rotation"`, the sense in which angles of weights are
-//!   counted
+//! - `weight_sense`: `"with rotation"` (as without it) or `"against rotation"`, the sense in which angles of weights
+//!   are counted
 //! - `[run_out]`: `readings` of a slow roll, which are taken off every other reading
 //! - `[[split]]`: `plane`, two `angles` that its weight is split between
 //! - `trials`: `"removed"` before the next run (as without it), or `"stay"`
@@ -33,8 +33,8 @@
 //! - `weighting`: a number for each reading, zero for one that is left out
 //! - `limits`: the largest weight of each plane, above zero, or `"none"`
 //! - `rpm` of a run: all runs are of one speed without it
-//! - `[[correction]]`: `weights` that were put on, an amount and an angle for each plane, then `rpm` and `readings` with
-//!   them
+//! - `[[correction]]`: `weights` that were put on, an amount and an angle for each plane, then `rpm` and `readings`
+//!   with them
 //! - `[[influence]]`: `plane` and `coefficients`, an amplitude and phase for each reading, instead of a trial run
 //! - `[[holes]]`: `plane`, `angles` or `count` (and `first`), `weights` to choose from, `removing = true` for drilling
 //! - `[rotor]`: `mass` (kg), `rpm` in service, `grade` (mm/s), `radius` (m) of the weights
@@ -43,8 +43,8 @@
 //! - `width`, `diameter` of `[rotor]`: its width and diameter (m), which say whether one plane is enough
 //! - `machine`: `"hard-bearing"`, forces (N) in bearings A and B of a balancing machine, whose planes are separated by
 //!   their places in `[rotor]`
-//! - `[amplitudes]`: `baseline`, `weight`, `runs` of an angle and an amplitude; of one plane, without phases, instead of
-//!   `[baseline]`
+//! - `[amplitudes]`: `baseline`, `weight`, `runs` of an angle and an amplitude; of one plane, without phases, instead
+//!   of `[baseline]`
 //!
 //! A plane may have several `[[trial]]`: all of them count, by least squares. Where trial weights stay, `weight` is
 //! what each run has more than the one before it.
