@@ -52,7 +52,8 @@ where
     /// time.
     ///
     /// # Errors
-    /// [`Faults::ANGLE_LOST`] or the board's fault; the power stage stays off.
+    /// [`Faults::ANGLE_LOST`], which a machine at rest leaves by [`Axis::at_rest`], or the board's fault; the power
+    /// stage stays off.
     pub fn start(&mut self, config: &ConfigOf<Drive<N, O, F, G, B>>) -> Result<(), Faults> {
         let lost = if self.drive.is_lost() { Err(Faults::ANGLE_LOST) } else { Ok(()) };
         self.drive.engage(config);
@@ -68,6 +69,19 @@ where
             Err(_) => self.trip(),
         }
         started
+    }
+
+    /// Finds a lost angle while the machine stands, its brake closed. The drive alone would wait for two angles in a row
+    /// that differ: to it one that does not move may be that of a frozen encoder. The axis is tripped;
+    /// [`Axis::start`] comes next.
+    ///
+    /// # Errors
+    /// The board's fault of the angle; the angle stays lost.
+    pub fn at_rest(&mut self, config: &ConfigOf<Drive<N, O, F, G, B>>) -> Result<(), Faults> {
+        self.trip();
+        let angle = self.board.angle()?;
+        self.drive.hold(config, angle, N::ZERO);
+        Ok(())
     }
 
     /// Takes the torque away and the enable chain back, in this order, whatever fails of it, until [`Axis::start`].

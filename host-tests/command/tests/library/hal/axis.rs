@@ -167,6 +167,33 @@ fn an_angle_that_stays_away_trips_and_a_start_needs_it_again() {
     assert!(off < 2.0 * TAU / 8192.0 * 1e4, "{off}");
 }
 
+/// A brake stops the machine while its angle is gone: the angle comes back and does not move.
+#[test]
+fn an_angle_that_was_lost_at_rest_is_found_on_request() {
+    let gone = CAUGHT * 2 + 100..CAUGHT * 2 + 1000;
+    let (from, end) = (gone.start, gone.end);
+    let mut board = Scripted::sound();
+    board.angle = Box::new(
+        move |tick| {
+            if gone.contains(&tick) { Err(Faults::ANGLE_MISSING) } else { Ok(turned(tick.min(from))) }
+        },
+    );
+    let mut axis = governing(board);
+    while axis.is_enabled() {
+        axis.tick(CONFIG, WANTED);
+    }
+    assert_eq!(axis.at_rest(CONFIG), Err(Faults::ANGLE_MISSING));
+    while axis.board().tick < end + 100 {
+        axis.tick(CONFIG, 0.0);
+    }
+    assert_eq!(axis.start(CONFIG), Err(Faults::ANGLE_LOST));
+    assert_eq!(axis.at_rest(CONFIG), Ok(()));
+    assert!(!axis.is_enabled());
+    assert_eq!(axis.start(CONFIG), Ok(()));
+    assert_eq!(axis.tick(CONFIG, 0.0).faults, Faults::NONE);
+    assert_eq!(axis.drive().estimate(CONFIG).motor_speed, 0.0);
+}
+
 #[test]
 fn a_torque_that_does_not_arrive_trips_in_the_same_tick() {
     let failing = Rc::new(RefCell::new(false));
