@@ -11,8 +11,8 @@ sentences! {
     LoadTorqueStep => "load_torque_step of the disturbance must be positive and finite (N m)",
     Within => "within of the disturbance must be positive and finite (s)",
     Unobservable => "the load is unobservable from the motor's angle: the stiffness between the two masses is zero",
-    SampleRate => "the sample rate cannot follow the shaft: its resonance lies above half the rate and is lightly \
-        damped",
+    SampleRate => "the sample rate cannot follow the shaft, whose resonance lies above half the rate and is lightly \
+        damped: take a higher rate, or the observer of one mass",
     NotConverged => "the observer's gain was not found: the Riccati equation has no stabilising solution for these \
         disturbances",
     NotStabilising => "the observer's gain does not stabilise the estimate: the disturbances are too small for this \
