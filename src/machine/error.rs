@@ -11,8 +11,8 @@ sentences! {
     GearRatio => "ratio of the gear must be positive and finite (speed of the motor's side over the load's)",
     GearEfficiency => "efficiency of the gear must be above 0 and at most 1",
     PlanetaryTeeth => "teeth of the planetary set must be above zero, with more on the ring than on the sun",
-    PlanetaryInertia => "inertias and masses of the planetary set must be zero or positive and finite, its module \
-        positive",
+    PlanetaryInertia => "inertias and masses of the planetary set must be zero or positive and finite, not all of \
+        them zero, and its module positive",
     PlanetaryMembers => "the held member of the planetary set must not be its input",
     DrumDiameter => "diameter of the drum must be positive and finite (m)",
     RopeFalls => "falls of the rope must be at least 1",
