@@ -90,6 +90,7 @@ impl Rotor {
             say_json(&found)?;
         } else {
             tables(&found).into_iter().for_each(say);
+            unstable(&found).into_iter().for_each(|text| say(format_args!("warning: {text}")));
         }
         file.map_or(Ok(()), |file| file.write_and_say(&page(&rotor, &found, &responses), self.json))
     }
@@ -232,10 +233,20 @@ fn tables(found: &Found) -> Vec<Section> {
     }
     if !found.peaks.is_empty() {
         let text = "Amplitude of the displacement by the unbalance of the file, up to the highest speed.";
-        all.push(Section::new("Vibration by unbalance", text, peaks(&found.peaks)));
+        let text = unstable(found).map_or(text.to_owned(), |warning| format!("{text} Warning: {warning}."));
+        all.push(Section::new("Vibration by unbalance", &text, peaks(&found.peaks)));
     }
     all.extend(found.balancing.iter().flat_map(Balanced::tables));
     all
+}
+
+/// The first speed of the diagram at which a whirl grows.
+fn unstable(found: &Found) -> Option<String> {
+    let growing = |whirls: &[Natural]| whirls.iter().find(|whirl| whirl.damping_ratio < 0.0).copied();
+    let mut speeds = found.speeds.iter().zip(&found.whirls);
+    let (&speed, whirl) = speeds.find_map(|(speed, whirls)| Some((speed, growing(whirls)?)))?;
+    let (rpm, hertz) = (rpm(speed), significant(whirl.frequency / TAU));
+    Some(format!("unstable at {rpm:.0} r/min: a whirl of {hertz} Hz grows, and no vibration settles"))
 }
 
 /// The page, with the vibration as it is and with the weights.

@@ -52,6 +52,21 @@ fn the_page_has_its_plots() {
     assert_eq!(html.matches("<svg viewBox=\"0 0").count(), 2);
 }
 
+/// Bearings that push across as strongly as they hold: far beyond what 2,500 N s/m damp below 600 rad/s.
+#[test]
+fn a_whirl_that_grows_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, page) = (folder.path().join("across.toml"), folder.path().join("across.html"));
+    let across = "stiffness_x = 4.0e6\ncross_xy = 4.0e6\ncross_yx = -4.0e6\n";
+    std::fs::write(&file, std::fs::read_to_string(FILE).unwrap().replace("stiffness_x = 4.0e6", across)).unwrap();
+    for (rotor, grows) in [(FILE, false), (file.to_str().unwrap(), true)] {
+        let output = driveline(&["rotor", rotor, "--html", page.to_str().unwrap()]);
+        let said = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(said.contains("\nwarning: unstable at 0 r/min: a whirl of"), grows, "{said}");
+        assert_eq!(std::fs::read_to_string(&page).unwrap().contains("Warning: unstable"), grows);
+    }
+}
+
 #[test]
 fn a_fault_is_told_with_its_place() {
     let whole = std::fs::read_to_string(FILE).unwrap();
