@@ -418,8 +418,17 @@ pub fn not_toml(source: Source<'_>, error: &toml::de::Error) -> Diagnostic {
     let line = source.line(span.start);
     let key = line.split_once('=').map_or("", |(key, _)| key.trim());
     let key = if key.chars().all(|c| c.is_alphanumeric() || "_-.".contains(c)) { key } else { "" };
-    let found = source.excerpt(span.clone());
+    let rest = source.excerpt(span.start..source.text.len());
+    // of a span without a length, the word there
+    let word = rest.split_whitespace().next().unwrap_or_default();
+    let found = Some(source.excerpt(span.clone())).filter(|found| !found.is_empty()).unwrap_or_else(|| word.to_owned());
     let found = if found.is_empty() { "nothing more".to_owned() } else { format!("`{}`", printable(&found, 40)) };
-    let reason = error.message().lines().next().unwrap_or("").trim();
-    Diagnostic::at(source, span, printable(key, 40), found, format!("TOML ({})", printable(reason, 160)))
+    let before = source.text.get(..span.start).unwrap_or_default();
+    let mut digits = before.chars().rev().take(1).chain(rest.chars().skip(1).take(1));
+    let expected = if rest.starts_with(',') && digits.all(|digit| digit.is_ascii_digit()) {
+        "a number without commas, its decimal sign a point".to_owned()
+    } else {
+        format!("TOML ({})", printable(error.message().lines().next().unwrap_or("").trim(), 160))
+    };
+    Diagnostic::at(source, span, printable(key, 40), found, expected)
 }

@@ -216,8 +216,10 @@ fn an_impossible_order_is_told_at_the_element() {
 #[test]
 fn what_is_no_toml_is_told_with_its_place() {
     let broken = fault("mass = 12000.0", "mass = 12,000.0");
-    assert_eq!(broken.key, "mass");
-    assert!(broken.expected.starts_with("TOML ("), "{broken}");
+    assert_eq!((&*broken.key, &*broken.found), ("mass", "`,000.0`"));
+    assert_eq!(broken.expected, "a number without commas, its decimal sign a point");
+    let broken = fault("mass = 12000.0", "mass = 12000.0 kg");
+    assert!(broken.found == "`12000.0 kg`" && broken.expected.starts_with("TOML ("), "{broken}");
     let twice = fault("mass = 12000.0", "mass = 1.0\nmass = 2.0");
     assert!(twice.to_string().contains("duplicate key"), "{twice}");
     assert_eq!(parse("empty.toml", " \n").unwrap_err().found, "an empty file");
