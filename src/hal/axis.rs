@@ -71,8 +71,8 @@ where
         started
     }
 
-    /// Finds a lost angle while the machine stands, its brake closed. The drive alone would wait for two angles in a row
-    /// that differ: to it one that does not move may be that of a frozen encoder. The axis is tripped;
+    /// Finds a lost angle while the machine stands, its brake closed. The drive alone would wait for two angles in a
+    /// row that differ: to it one that does not move may be that of a frozen encoder. The axis is tripped;
     /// [`Axis::start`] comes next.
     ///
     /// # Errors
