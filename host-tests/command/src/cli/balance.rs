@@ -78,9 +78,15 @@ struct Plane {
     largest_without: Option<f64>,
     /// Influence of a weight of one on each reading.
     coefficients: Vec<Polar>,
+    /// The largest change of a reading by the trial weight, over what it was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    change_by_trial: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     left_out: Option<String>,
 }
+
+/// Change of a reading of which an error of 5 % in that reading is a half.
+const SLIGHT: f64 = 0.1;
 
 /// A share of a weight at a given angle.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -200,7 +206,7 @@ fn without(
 }
 
 fn outcome(file: &BalanceFile) -> Result<Outcome, Fault> {
-    let Measured::Phasors { procedure, baseline, last, rpm, on, corrections } = &file.measured else {
+    let Measured::Phasors { procedure, baseline, last, rpm, on, corrections, changes } = &file.measured else {
         return Err(Error::TooEarly.into());
     };
     let correction: Correction<f64, ROWS, PLANES> = procedure.correction()?;
@@ -225,6 +231,7 @@ fn outcome(file: &BalanceFile) -> Result<Outcome, Fault> {
                 .map(|(_, angles)| split(file.angles.weight(correction.weights[plane]), *angles)),
             largest_without: without(&influence, last, &procedure.plan().aim, plane),
             coefficients: (0..file.sensors.len()).filter_map(|row| influence.get(row, plane).map(reading)).collect(),
+            change_by_trial: changes[plane],
             holes: fitted,
             left_out: out.map(|out| {
                 let like: Vec<String> = (file.planes.iter().zip(&out.like))
@@ -289,6 +296,11 @@ fn summary(outcome: &Outcome) -> String {
 fn facts(outcome: &Outcome) -> Vec<Fact> {
     let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
     let mut facts = vec![fact("condition of the planes", significant(outcome.condition))];
+    let slight = |plane: &Plane| plane.change_by_trial.filter(|change| *change < SLIGHT);
+    facts.extend(outcome.planes.iter().filter_map(|plane| {
+        let text = format!("changes the readings by {} only: take a heavier one to be sure", percent(slight(plane)?));
+        Some(fact(&format!("trial weight of {}", plane.plane), text))
+    }));
     facts.extend(outcome.grade.iter().flat_map(Grade::facts));
     facts
 }

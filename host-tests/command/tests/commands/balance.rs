@@ -290,6 +290,23 @@ fn contradicting_trials_both_count() {
     near(&outcome["planes"][0]["weight"]["degrees"], 180.0, 1e-10);
 }
 
+/// A trial weight that changes 10 by less than a tenth is named with its change; the heaviest of a plane counts.
+#[test]
+fn a_trial_weight_that_changes_little_is_told() {
+    let trial = |reading: f64| format!("[[trial]]\nplane = \"p\"\nweight = [1, 0]\nreadings = [[{reading}, 0]]\n");
+    let file = "name = \"one\"\nplanes = [\"p\"]\nsensors = [\"a\"]\n[baseline]\nreadings = [[10, 0]]\n";
+    let warning = "trial weight of p: changes the readings by";
+    for (readings, told) in [(&[10.5][..], Some("5.00 %")), (&[10.5, 9.2], Some("8.00 %")), (&[10.5, 11.5], None)] {
+        let text = format!("{file}{}", readings.iter().map(|reading| trial(*reading)).collect::<String>());
+        let said = String::from_utf8(balance(&text, &[]).stdout).unwrap();
+        let line = said.lines().find(|line| line.starts_with(warning));
+        assert_eq!(line.is_some(), told.is_some(), "{said}");
+        assert!(line.is_none_or(|line| line.contains(told.unwrap_or_default())), "{said}");
+        let largest = readings.iter().map(|reading| f64::abs(reading - 10.0) / 10.0).fold(0.0, f64::max);
+        near(&json(&text)["planes"][0]["change_by_trial"], largest, 1e-12);
+    }
+}
+
 /// A reading that is weighted with zero is shown, and counts for nothing.
 #[test]
 fn a_reading_that_is_left_out_is_not_in_the_headline() {

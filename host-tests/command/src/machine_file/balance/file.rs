@@ -58,6 +58,8 @@ pub enum Measured {
         on: Vec<Complex<f64>>,
         /// Corrections that were put on.
         corrections: usize,
+        /// The largest change of a reading by the trial weights of each plane, over what it was.
+        changes: Vec<Option<f64>>,
     },
     /// Amplitudes alone.
     Amplitudes {

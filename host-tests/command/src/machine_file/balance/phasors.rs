@@ -81,6 +81,7 @@ pub(super) fn phasors(root: &mut Table<'_>, file: &BalanceFile) -> Result<Measur
             .map_err(|refusal| root.wrong("influence", format!("a table for each plane: {}", said(refusal, planes))))?;
     }
     let known = machine || root.has("influence");
+    let mut changes = vec![None; planes.len()];
     for (count, mut table) in root.optional_tables("trial")?.into_iter().enumerate() {
         let plane = plane(&mut table, planes)?;
         if known {
@@ -98,6 +99,9 @@ pub(super) fn phasors(root: &mut Table<'_>, file: &BalanceFile) -> Result<Measur
         let (run, readings, _) = self::run(&mut table, &common, &mut entry)?;
         // several of a plane all count: replacing one would lose an entry
         procedure.extra_trial(plane, weight, &run).map_err(|refusal| refused(&table, refusal))?;
+        let before = if leave_trials { &last } else { &baseline };
+        let change = before.iter().zip(&readings).map(|(before, with)| (with - before).norm() / before.norm());
+        changes[plane] = Some(change.fold(changes[plane].unwrap_or(0.0), f64::max));
         if leave_trials {
             last = readings;
             on[plane] += weight;
@@ -138,7 +142,7 @@ pub(super) fn phasors(root: &mut Table<'_>, file: &BalanceFile) -> Result<Measur
         let key = ["limits", "aim", "baseline"].into_iter().find(|key| root.has(key)).unwrap_or("planes");
         root.wrong(key, format!("readings with a solution: {}", said(refusal, planes)))
     })?;
-    Ok(Measured::Phasors { procedure: Box::new(procedure), baseline, last, rpm, on, corrections })
+    Ok(Measured::Phasors { procedure: Box::new(procedure), baseline, last, rpm, on, corrections, changes })
 }
 
 /// The largest weight of each plane; `"none"` for a plane without a limit.
