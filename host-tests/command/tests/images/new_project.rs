@@ -60,6 +60,19 @@ fn a_project_runs_in_qemu_on_each_board_and_passes_its_test() {
     }
 }
 
+/// The hoist's 12 t weigh 747 N m at the motor, of 1,350 N m: not so 24 t.
+#[test]
+fn a_load_that_the_torque_does_not_hold_is_a_warning() {
+    let place = tempfile::tempdir().unwrap();
+    let heavy = place.path().join("heavy.toml");
+    std::fs::write(&heavy, std::fs::read_to_string(HOIST).unwrap().replace("mass = 12000.0", "mass = 24000.0"))
+        .unwrap();
+    for (name, machine, told) in [("light", HOIST, false), ("heavy", heavy.to_str().unwrap(), true)] {
+        let said = ended_well(&new(place.path(), &[name, "--machine", machine]));
+        assert_eq!(said.contains("warning: the weight of 1\u{202f}494 N m at the motor is not held"), told, "{said}");
+    }
+}
+
 #[test]
 fn a_project_is_built_for_the_boards_that_qemu_does_not_have() {
     let place = tempfile::tempdir().unwrap();

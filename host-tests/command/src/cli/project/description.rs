@@ -86,6 +86,9 @@ pub struct Project {
     /// Why there is no drive.
     #[serde(skip)]
     no_drive: Option<Failure>,
+    /// What the design warns of.
+    #[serde(skip)]
+    warnings: Vec<String>,
 }
 
 /// A mass of the machine, and the shaft before it, at the motor.
@@ -150,6 +153,7 @@ impl Project {
         let (actuator, tolerance) = (machine.actuator(), tolerance(machine));
         let period = 1.0 / f64::from(machine.control.rate_hz);
         Ok(Project {
+            warnings: plan.as_ref().map_or_else(|_| Vec::new(), |plan| plan.warnings.clone()),
             name: name.to_owned(),
             upper: krate.to_ascii_uppercase(),
             type_name: type_name(&krate, &words.iter().copied().collect::<Vec<_>>()),
@@ -211,12 +215,17 @@ impl Project {
         })
     }
 
-    /// Itself, if its drive is robust; the machine alone needs none.
+    /// Itself, if its drive is robust; the machine alone needs none. What the design warns of goes to the standard
+    /// error output.
     ///
     /// # Errors
     /// A drive that cannot be designed, or a speed loop without the margins that it must have.
     pub fn robust(mut self) -> Result<Self, Failure> {
-        self.no_drive.take().map_or(Ok(self), Err)
+        if let Some(failure) = self.no_drive.take() {
+            return Err(failure);
+        }
+        self.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
+        Ok(self)
     }
 
     /// The observer as a type.
