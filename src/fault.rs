@@ -4,7 +4,7 @@ use core::fmt;
 use core::ops::{BitAnd, BitOr, BitOrAssign};
 
 /// A set of faults.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Faults(u32);
 
@@ -134,6 +134,13 @@ impl BitOrAssign for Faults {
     #[inline(always)]
     fn bitor_assign(&mut self, other: Faults) {
         self.0 |= other.0;
+    }
+}
+
+/// By their names, as the display.
+impl fmt::Debug for Faults {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Faults({self})")
     }
 }
 

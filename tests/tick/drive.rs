@@ -149,6 +149,7 @@ fn faults_are_a_set() {
     // a bit that means nothing
     assert_eq!(Faults::from_bits(1 << 20 | one.bits()), one);
     assert_eq!((Faults::NONE.to_string(), both.to_string()), ("none".into(), "torque, setpoint".into()));
+    assert_eq!(format!("{both:?}"), "Faults(torque, setpoint)");
     assert!(both.intersects(one) && one.intersects(both) && one.intersects(one) && !one.intersects(two));
 }
 
