@@ -210,7 +210,9 @@ fn tables(found: &Found) -> Vec<Section> {
     for (index, critical) in found.critical_speeds.iter().enumerate() {
         let numbers = [rpm(critical.speed), critical.speed, critical.speed / TAU].map(|value| format!("{value:.2}"));
         let row = [(index + 1).to_string()].into_iter().chain(numbers);
-        criticals.row(row.chain([word(critical.sense).to_owned()]));
+        let beyond =
+            if found.speeds.last().is_some_and(|&last| critical.speed > last) { ", beyond the highest" } else { "" };
+        criticals.row(row.chain([format!("{}{beyond}", word(critical.sense))]));
     }
     let text =
         "Without damping. Where the supports are alike in all directions, unbalance excites the forward ones only.";
