@@ -86,7 +86,7 @@ fn modes_as_json_are_those_of_the_closed_form() {
     // Momentum: J1 a1 + J2 a2 = 0.
     let shape = [0, 1].map(|mass| modes["resonances"][0]["shape"][mass].as_f64().unwrap());
     assert!((2.0 * shape[0] + 3.0 * shape[1]).abs() < 1e-14);
-    assert!(modes["worth"][0]["resonance"].is_null());
+    assert!(modes["sensitivity"][0]["resonance"].is_null());
 }
 
 #[test]

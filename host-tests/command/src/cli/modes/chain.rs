@@ -12,7 +12,7 @@ use super::response::Response;
 use crate::machine_file::MachineFile;
 
 /// Change below which a part can be left out: 1 %, less than the accuracy of any stiffness.
-pub const WORTH: f64 = 0.01;
+pub const KEPT: f64 = 0.01;
 
 /// The vibrations of a machine, everything referred to the motor.
 #[derive(Clone, Debug, Serialize)]
@@ -38,7 +38,7 @@ pub struct Vibration {
     /// The dampers, each alone.
     pub dampers: Vec<Damped>,
     /// Changes without each part of a chain, the smallest first.
-    pub worth: Vec<Leaving>,
+    pub sensitivity: Vec<Leaving>,
 }
 
 /// A mass.
@@ -118,8 +118,8 @@ pub struct Leaving {
     pub antiresonance: Option<f64>,
     /// Change of the static compliance at the motor.
     pub compliance: Option<f64>,
-    /// Whether to keep it: some change of [`WORTH`] or more.
-    pub worth_keeping: bool,
+    /// Whether to keep it: some change of [`KEPT`] or more.
+    pub keep: bool,
 }
 
 impl Vibration {
@@ -156,8 +156,9 @@ impl Vibration {
             gap: joint.shaft.gap,
         };
         // parts are left out of chains only
-        let mut worth = if machine.train.is_none() { machine.chain.sensitivity().parts().to_vec() } else { Vec::new() };
-        worth.sort_by(|a, b| a.worst().total_cmp(&b.worst()));
+        let mut sensitivity =
+            if machine.train.is_none() { machine.chain.sensitivity().parts().to_vec() } else { Vec::new() };
+        sensitivity.sort_by(|a, b| a.worst().total_cmp(&b.worst()));
         let finite = |value: f64| value.is_finite().then_some(value);
         let leaving = |part: &driveline::machine::Part| Leaving {
             part: match part.element {
@@ -167,7 +168,7 @@ impl Vibration {
             resonance: finite(part.resonance),
             antiresonance: finite(part.antiresonance),
             compliance: finite(part.compliance),
-            worth_keeping: part.worst() >= WORTH,
+            keep: part.worst() >= KEPT,
         };
         let frequencies: Vec<f64> = modes.resonances().iter().map(|mode| mode.frequency).collect();
         let mut critical = critical_speeds(&frequencies, machine.running.as_ref(), &machine.excitations);
@@ -186,7 +187,7 @@ impl Vibration {
             resonances: modes.resonances().iter().map(resonance).collect(),
             antiresonances: modes.antiresonances().to_vec(),
             reductions: reductions(machine, &shafts),
-            worth: worth.iter().map(leaving).collect(),
+            sensitivity: sensitivity.iter().map(leaving).collect(),
             shafts: shafts.iter().zip(&joints).map(spring).collect(),
             masses: masses
                 .into_iter()

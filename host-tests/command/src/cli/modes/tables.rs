@@ -6,7 +6,7 @@ use driveline_report::format::{DIVERGED, percent, significant};
 use driveline_report::{Section, Table};
 
 use super::campbell::{barred_speeds, critical};
-use super::chain::{Leaving, Reduction, Vibration, WORTH};
+use super::chain::{KEPT, Leaving, Reduction, Vibration};
 use super::{damper, engine};
 
 /// The tables as title, explanation and table: for the terminal and the page alike.
@@ -55,8 +55,8 @@ pub fn tables(vibration: &Vibration) -> Vec<Section> {
     all.extend(vibration.engine.as_ref().map(engine::table));
     all.extend(damper::table(&vibration.dampers));
     all.push(reductions(&vibration.reductions));
-    if !vibration.worth.is_empty() {
-        all.push(worth(&vibration.worth));
+    if !vibration.sensitivity.is_empty() {
+        all.push(sensitivity(&vibration.sensitivity));
     }
     all
 }
@@ -89,17 +89,17 @@ fn reductions(reductions: &[Reduction]) -> Section {
     Section::new("Reduction to two masses", text, table)
 }
 
-fn worth(parts: &[Leaving]) -> Section {
+fn sensitivity(parts: &[Leaving]) -> Section {
     let mut table = Table::new(["simplification", "resonance", "antiresonance", "compliance", "keep"]);
     let change = |value: Option<f64>| value.map_or_else(|| "none left".to_owned(), signed);
     for part in parts {
         let changes = [part.resonance, part.antiresonance, part.compliance].map(change);
-        let verdict = if part.worth_keeping { "yes" } else { "no" };
+        let verdict = if part.keep { "yes" } else { "no" };
         table.row([part.part.clone()].into_iter().chain(changes).chain([verdict.to_owned()]));
     }
     let text = format!(
         "Computed change at the motor when a part is left out; below {} in all three it can be left out.",
-        percent(WORTH)
+        percent(KEPT)
     );
     Section::new("Sensitivity to each part", text, table)
 }

@@ -252,7 +252,7 @@ fn worst_case_bounds_the_answer_to_a_blow() {
 
 /// Each part left out by hand gives the change that the table tells.
 #[test]
-fn worth_of_each_part() {
+fn sensitivity_to_each_part() {
     let build = |inertia: &[f64], stiffness: &[f64]| {
         let mut chain = Chain::motor(Inertia(inertia[0]));
         for (j, k) in inertia[1..].iter().zip(stiffness) {
