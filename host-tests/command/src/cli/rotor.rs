@@ -242,9 +242,12 @@ fn tables(found: &Found) -> Vec<Section> {
     all
 }
 
+/// Damping ratio below which a whirl grows: a whirl that no damper moves has some 1e-12 of either sign by rounding.
+const GROWS: f64 = -1e-6;
+
 /// The first speed of the diagram at which a whirl grows.
 fn unstable(found: &Found) -> Option<String> {
-    let growing = |whirls: &[Natural]| whirls.iter().find(|whirl| whirl.damping_ratio < 0.0).copied();
+    let growing = |whirls: &[Natural]| whirls.iter().find(|whirl| whirl.damping_ratio < GROWS).copied();
     let mut speeds = found.speeds.iter().zip(&found.whirls);
     let (&speed, whirl) = speeds.find_map(|(speed, whirls)| Some((speed, growing(whirls)?)))?;
     let (rpm, hertz) = (rpm(speed), significant(whirl.frequency / TAU));

@@ -58,8 +58,12 @@ fn a_whirl_that_grows_is_told() {
     let folder = tempfile::tempdir().unwrap();
     let (file, page) = (folder.path().join("across.toml"), folder.path().join("across.html"));
     let across = "stiffness_x = 4.0e6\ncross_xy = 4.0e6\ncross_yx = -4.0e6\n";
-    std::fs::write(&file, std::fs::read_to_string(FILE).unwrap().replace("stiffness_x = 4.0e6", across)).unwrap();
-    for (rotor, grows) in [(FILE, false), (file.to_str().unwrap(), true)] {
+    let three_discs = std::fs::read_to_string(FILE).unwrap();
+    std::fs::write(&file, three_discs.replace("stiffness_x = 4.0e6", across)).unwrap();
+    // along y nothing is damped: at rest those whirls neither grow nor decay
+    let along_x = folder.path().join("along_x.toml");
+    std::fs::write(&along_x, three_discs.replace("damping_x = 2.5e3", "damping_x = 2.5e3\ndamping_y = 0.0")).unwrap();
+    for (rotor, grows) in [(FILE, false), (along_x.to_str().unwrap(), false), (file.to_str().unwrap(), true)] {
         let output = driveline(&["rotor", rotor, "--html", page.to_str().unwrap()]);
         let said = String::from_utf8(output.stdout).unwrap();
         assert_eq!(said.contains("\nwarning: unstable at 0 r/min: a whirl of"), grows, "{said}");
