@@ -58,6 +58,7 @@ impl Report {
         ready(&Need::to_run(BOARDS))?;
         let began = Instant::now();
         let (jobs, mut survey) = jobs(&wanted, self.quick);
+        survey.measured = Stamp::now().to_string();
         let progress = Progress::of(jobs.iter().map(|job| job.weight).sum());
         let threads = thread::available_parallelism().map_or(1, usize::from);
         let done = work(jobs, threads, &|text| progress.says(text), &|weight| progress.steps(weight));
@@ -68,7 +69,6 @@ impl Report {
                 Err(failure) => survey.failures.push(failure),
             }
         }
-        survey.measured = Stamp::now().to_string();
         survey.seconds = began.elapsed().as_secs_f64();
         if self.json {
             say_json(&survey)?;
