@@ -6,9 +6,9 @@
 //!
 //! | part | a tick does | gives |
 //! |---|---|---|
-//! | [`Extremes`] | compares the observer's speeds | every cycle: mean, largest and least speed of motor and load, delta |
-//! | [`Waveform`] | counts itself in the bin of its angle | every few cycles: the mean waveform, orders, delta, torque, energy |
-//! | [`CycleMean`] | nothing but at the ends of segments | several times a cycle: the speed without its ripple, for a governor |
+//! | [`Extremes`] | compares the observer's speeds | every cycle: mean, extremes and delta of both speeds |
+//! | [`Waveform`] | counts itself in the bin of its angle | every few cycles: waveform, orders, delta, energy |
+//! | [`CycleMean`] | work at the ends of segments only | several times a cycle: the speed without its ripple |
 //! | a pair of any | both | both |
 //! | [`Interleaved`] | the waveform's and the extremes' work by turns | both, at less than the cost of the pair |
 //!
