@@ -40,9 +40,11 @@ fn memory_map(board: &str) {
     let map = if own.exists() { own } else { boards.join("mps2.x") };
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     copy(&map, &out.join("board.x"));
-    copy(&package.join("memory.x"), &out.join("memory.x"));
+    // the repository's, which its README names
+    let memory = package.join("../memory.x");
+    copy(&memory, &out.join("memory.x"));
     println!("cargo::rerun-if-changed={}", map.display());
-    println!("cargo::rerun-if-changed={}", package.join("memory.x").display());
+    println!("cargo::rerun-if-changed={}", memory.display());
     println!("cargo::rustc-link-search={}", out.display());
 }
 
