@@ -8,36 +8,15 @@
 mod learnt;
 mod machine;
 
-use driveline::configure::{Machine, Rating};
-use driveline::design::{Disturbance, Encoder, SemiImplicitStep, SpeedLoopDesign, StepChoice, Tolerance};
-use driveline::machine::{Chain, Match, TwoMass};
+use driveline::configure::Machine;
+use driveline::design::{SemiImplicitStep, StepChoice};
 use driveline::observer::{self, GearedObserver, SemiImplicitObserver};
-use driveline::settings::{Bases, Gear, Screening};
 
 use crate::scene::composed::Governed;
 use crate::scene::table::variants;
 
 pub use learnt::{Learnt, panel};
-pub use machine::{Hoist, TRAVEL, chain};
-
-/// The hoist for an observer that cuts it by the textbook: everything before the rope, everything behind it, the rope
-/// between.
-pub struct CutAtRope<const RATE_HZ: u32>;
-
-impl<const RATE_HZ: u32> Machine for CutAtRope<RATE_HZ> {
-    const CHAIN: Chain = Hoist::<RATE_HZ>::CHAIN;
-    const RATING: Rating = Hoist::<RATE_HZ>::RATING;
-    const ENCODER: Encoder = Hoist::<RATE_HZ>::ENCODER;
-    const RATE_HZ: u32 = RATE_HZ;
-    const TWO_MASS: TwoMass = Self::CHAIN.reduce(Match::TextbookShaft(1));
-    const GEAR: Gear = Hoist::<RATE_HZ>::GEAR;
-    const DISTURBANCE: Disturbance = Hoist::<RATE_HZ>::DISTURBANCE;
-    const SPEED_LOOP: SpeedLoopDesign = Hoist::<RATE_HZ>::SPEED_LOOP;
-    const TOLERANCE: Tolerance = Hoist::<RATE_HZ>::TOLERANCE;
-    const RAMP: f64 = Hoist::<RATE_HZ>::RAMP;
-    const BASES: Bases = Hoist::<RATE_HZ>::BASES;
-    const SCREENING: Screening = Hoist::<RATE_HZ>::SCREENING;
-}
+pub use machine::{CutAtRope, Hoist, TRAVEL, chain};
 
 /// The design chooses the cheap step from 4 kHz on; a change that makes it too coarse stops here.
 const _: () = {

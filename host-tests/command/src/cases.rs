@@ -1,7 +1,7 @@
 //! Published and made-up cases that are stiff or extreme, each held to its reference: natural frequencies of chains
 //! with extreme ratios, starts and reversals through backlash, a gear mesh through its resonances.
 //!
-//! The references stand in `host-tests/command/data`, each file with its source; none is this project's own code.
+//! The references stand in `tests/data`, each file with its source; none is this project's own code.
 
 mod case;
 pub mod chains;

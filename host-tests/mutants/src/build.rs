@@ -12,7 +12,7 @@ use crate::rewrite::rewrite;
 
 /// The test programs: package, kind and name, the quickest first.
 const PROGRAMS: [[&str; 3]; 3] =
-    [["driveline", "--lib", ""], ["driveline", "--test", "tick"], ["cargo-driveline", "--test", "library"]];
+    [["driveline", "--lib", ""], ["driveline", "--test", "tick"], ["driveline", "--test", "library"]];
 
 /// Those that the command has, so that the library is built once.
 const FEATURES: &str = "balancing,hal,hal-async,parameters,telemetry";

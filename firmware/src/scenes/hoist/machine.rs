@@ -1,11 +1,13 @@
 //! The hoist's machine, and its family over load and rope.
 
 use driveline::configure::{Family, Machine, Rating};
-use driveline::design::{Disturbance, Encoder, SpeedLoopTuning, Spread, StepChoice, Tolerance, TwoMassDesign};
+use driveline::design::{
+    Disturbance, Encoder, SpeedLoopDesign, SpeedLoopTuning, Spread, StepChoice, Tolerance, TwoMassDesign,
+};
 use driveline::machine::{
     Chain, Damping, Diameter, Efficiency, Falls, Inertia, LinearDamping, Mass, Match, Ratio, Stiffness, TwoMass,
 };
-use driveline::settings::{Bases, Screening};
+use driveline::settings::{Bases, Gear, Screening};
 
 /// The machine, from the motor to the hook, at a tick rate. Two masses stand for it with the chain's first resonance
 /// and antiresonance.
@@ -101,4 +103,23 @@ impl<const RATE_HZ: u32> Machine for Hoist<RATE_HZ> {
     /// In 15 ms the motor turns by less than half a turn.
     const SCREENING: Screening =
         Screening { max_coast: RATE_HZ / 67, ..Self::RATING.screening(Self::ENCODER, Self::RATE) };
+}
+
+/// The hoist for an observer that cuts it by the textbook: everything before the rope, everything behind it, the rope
+/// between.
+pub struct CutAtRope<const RATE_HZ: u32>;
+
+impl<const RATE_HZ: u32> Machine for CutAtRope<RATE_HZ> {
+    const CHAIN: Chain = Hoist::<RATE_HZ>::CHAIN;
+    const RATING: Rating = Hoist::<RATE_HZ>::RATING;
+    const ENCODER: Encoder = Hoist::<RATE_HZ>::ENCODER;
+    const RATE_HZ: u32 = RATE_HZ;
+    const TWO_MASS: TwoMass = Self::CHAIN.reduce(Match::TextbookShaft(1));
+    const GEAR: Gear = Hoist::<RATE_HZ>::GEAR;
+    const DISTURBANCE: Disturbance = Hoist::<RATE_HZ>::DISTURBANCE;
+    const SPEED_LOOP: SpeedLoopDesign = Hoist::<RATE_HZ>::SPEED_LOOP;
+    const TOLERANCE: Tolerance = Hoist::<RATE_HZ>::TOLERANCE;
+    const RAMP: f64 = Hoist::<RATE_HZ>::RAMP;
+    const BASES: Bases = Hoist::<RATE_HZ>::BASES;
+    const SCREENING: Screening = Hoist::<RATE_HZ>::SCREENING;
 }

@@ -7,8 +7,8 @@ use serde_json::Value;
 use super::{Case, larger};
 use driveline_solver::plant::modes::System;
 
-const EXTREME: &str = include_str!("../../data/torsional_modes_extreme.json");
-const EVERY_ORDER: &str = include_str!("../../data/extreme_chains.json");
+const EXTREME: &str = include_str!("../../../../tests/data/torsional_modes_extreme.json");
+const EVERY_ORDER: &str = include_str!("../../../../tests/data/extreme_chains.json");
 
 /// High relative accuracy: what the first file allows, and the same of the second.
 const ALLOWED: f64 = 1e-13;

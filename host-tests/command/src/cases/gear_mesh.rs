@@ -5,7 +5,7 @@ use serde::Deserialize;
 use super::{Case, larger};
 use driveline_solver::plant::train::{Coordinate, Link, Motion, Signal, Source, Train, Variation};
 
-const FILE: &str = include_str!("../../data/gear_mesh.json");
+const FILE: &str = include_str!("../../../../tests/data/gear_mesh.json");
 
 #[derive(Deserialize)]
 struct Cases {

@@ -7,7 +7,7 @@ use super::{Case, larger};
 use driveline_solver::plant::converge::{NotProven, Proof, Recording, prove};
 use driveline_solver::plant::{Chain, MotorLaw, Plant, Shaft, Start};
 
-const FILE: &str = include_str!("../../data/backlash_transients.json");
+const FILE: &str = include_str!("../../../../tests/data/backlash_transients.json");
 
 #[derive(Deserialize)]
 struct Cases {

@@ -34,9 +34,9 @@ pub fn tests(arguments: &[&str], voice: &Voice) -> Result<Count, Failed> {
 }
 
 /// Runs the tests that are ignored for their length, of one program, by name. A name that no test has is a failure.
-pub fn ignored_tests(program: &str, names: &[&str], voice: &Voice) -> Result<Count, Failed> {
-    let program = format!("--test={program}");
-    let arguments = ["test", "--package=cargo-driveline", &program, "--", "--ignored", "--nocapture"];
+pub fn ignored_tests(package: &str, program: &str, names: &[&str], voice: &Voice) -> Result<Count, Failed> {
+    let (package, program) = (format!("--package={package}"), format!("--test={program}"));
+    let arguments = ["test", &package, &program, "--", "--ignored", "--nocapture"];
     let count = tests(&[&arguments[..], names].concat(), voice)?;
     if count.passed < names.len() as u64 {
         return Err(Failed { count, message: format!("one of {} is no test", names.join(", ")) });

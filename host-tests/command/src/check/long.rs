@@ -10,6 +10,9 @@ use super::gap::{Gap, Inputs, table};
 use super::steps::together;
 use super::{Count, Failed, Step, Voice, cargo, pages};
 
+/// The package of the tests of commands and scenes.
+const COMMAND: &str = "cargo-driveline";
+
 /// All long steps, the shortest first.
 pub const LONG: [Step; 8] = [
     Step {
@@ -63,18 +66,18 @@ pub const LONG: [Step; 8] = [
 ];
 
 fn power_cuts(voice: &Voice) -> Result<Count, Failed> {
-    cargo::ignored_tests("library", &["a_power_cut_at_every_byte_of_every_history"], voice)
+    cargo::ignored_tests("driveline", "library", &["a_power_cut_at_every_byte_of_every_history"], voice)
 }
 
 fn ticks(voice: &Voice) -> Result<Count, Failed> {
     let library = ["nothing_drifts_in_a_thousand_million_ticks", "an_even_engine_has_no_weak_cylinder"];
     let closed_loop = ["it_stays_right_over_ten_million_ticks", "the_same_in_fixed_point"];
-    let tests = |program, names| cargo::ignored_tests(program, names, voice);
-    together([tests("library", &library), tests("closed_loop", &closed_loop)])
+    let tests = |package, program, names| cargo::ignored_tests(package, program, names, voice);
+    together([tests("driveline", "library", &library), tests(COMMAND, "closed_loop", &closed_loop)])
 }
 
 fn starts(voice: &Voice) -> Result<Count, Failed> {
-    cargo::ignored_tests("library", &["a_hundred_thousand_starts_end_no_worse"], voice)
+    cargo::ignored_tests("driveline", "library", &["a_hundred_thousand_starts_end_no_worse"], voice)
 }
 
 fn attacks(voice: &Voice) -> Result<Count, Failed> {
@@ -83,11 +86,11 @@ fn attacks(voice: &Voice) -> Result<Count, Failed> {
         "a_full_disk_at_every_write_loses_nothing",
         "signals_at_fifty_moments",
     ];
-    cargo::ignored_tests("attack", &attacks, voice)
+    cargo::ignored_tests(COMMAND, "attack", &attacks, voice)
 }
 
 fn seeds(voice: &Voice) -> Result<Count, Failed> {
-    cargo::ignored_tests("closed_loop", &["every_machine_over_forty_seeds"], voice)
+    cargo::ignored_tests(COMMAND, "closed_loop", &["every_machine_over_forty_seeds"], voice)
 }
 
 /// A variant without a bound has nothing to exceed.

@@ -15,7 +15,7 @@ mod machine_file;
 mod motor_wheel;
 mod pages;
 mod prime_movers;
-#[path = "../references/mod.rs"]
+#[path = "../../../../tests/library/references.rs"]
 mod references;
 mod replay;
 mod ring_down;

@@ -9,7 +9,7 @@ const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/rotors/three_discs.toml
 
 /// Influence coefficients and critical speeds of the same rotor by an independent program.
 fn file() -> Value {
-    serde_json::from_str(include_str!("../../data/flexible_rotor.json")).unwrap()
+    serde_json::from_str(include_str!("../../../../tests/data/flexible_rotor.json")).unwrap()
 }
 
 fn driveline(arguments: &[&str]) -> Output {

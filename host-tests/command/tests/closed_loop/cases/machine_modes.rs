@@ -4,7 +4,7 @@ use driveline::machine::{Chain, Damping, Inertia, Match, Stiffness};
 use serde_json::Value;
 
 fn data(name: &str) -> Value {
-    let path = format!("{}/data/{name}", env!("CARGO_MANIFEST_DIR"));
+    let path = format!("{}/../../tests/data/{name}", env!("CARGO_MANIFEST_DIR"));
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 

@@ -10,7 +10,7 @@ use driveline::settings::Bases;
 use serde_json::Value;
 
 fn cases() -> Vec<Value> {
-    let path = format!("{}/data/discretisation.json", env!("CARGO_MANIFEST_DIR"));
+    let path = format!("{}/../../tests/data/discretisation.json", env!("CARGO_MANIFEST_DIR"));
     let file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
     file["cases"].as_array().unwrap().clone()
 }

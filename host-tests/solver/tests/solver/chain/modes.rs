@@ -65,7 +65,7 @@ struct Reduction {
 }
 
 fn cases() -> Vec<Case> {
-    serde_json::from_str::<Cases<Case>>(include_str!("../../../../command/data/torsional_modes.json")).unwrap().cases
+    serde_json::from_str::<Cases<Case>>(include_str!("../../../../../tests/data/torsional_modes.json")).unwrap().cases
 }
 
 fn system(case: &Case) -> System {

@@ -6,7 +6,7 @@ use serde_json::Value;
 /// The file: influence coefficients and trial runs of a rotor by an independent program (its own elements, checked
 /// with ROSS).
 pub fn file() -> Value {
-    serde_json::from_str(include_str!("../../../../command/data/flexible_rotor.json")).unwrap()
+    serde_json::from_str(include_str!("../../../../../tests/data/flexible_rotor.json")).unwrap()
 }
 
 /// Where the discs are: nodes 3, 6 and 9 of 0 to 12.

@@ -37,7 +37,7 @@ struct Load {
 
 #[test]
 fn a_punch_press_runs_through_its_cycle_as_in_the_case() {
-    let text = include_str!("../../../../command/data/speed_fluctuation.json");
+    let text = include_str!("../../../../../tests/data/speed_fluctuation.json");
     let press = serde_json::from_str::<Cases>(text).unwrap().cases.remove(0);
     let [stall, slope] = press.motor_line_a_b;
     let mut motion = Train::new()

@@ -47,8 +47,9 @@ fn motion(case: &Case) -> Motion {
 
 #[test]
 fn every_start_condition_of_the_cases_is_met_to_a_millionth_of_peak() {
-    let cases =
-        serde_json::from_str::<Cases>(include_str!("../../../../command/data/backlash_transients.json")).unwrap().cases;
+    let cases = serde_json::from_str::<Cases>(include_str!("../../../../../tests/data/backlash_transients.json"))
+        .unwrap()
+        .cases;
     for case in &cases {
         let mut motion = motion(case);
         motion.watch(Signal::Force(0));

@@ -26,7 +26,7 @@ struct Equivalent {
 #[test]
 fn the_three_ways_agree_on_every_published_chain() {
     let cases =
-        serde_json::from_str::<Cases>(include_str!("../../../../command/data/torsional_modes.json")).unwrap().cases;
+        serde_json::from_str::<Cases>(include_str!("../../../../../tests/data/torsional_modes.json")).unwrap().cases;
     let mut chains = 0;
     for case in &cases {
         let Some(chain) = &case.equivalent_chain_referred_to_drive else { continue };

@@ -1,5 +1,0 @@
-//! The observer of backlash: its step against the full solver, its gains, a mill that bites, and what it refuses.
-
-mod bites;
-mod sentences;
-mod step;

@@ -1,0 +1,6 @@
+//! Designs against closed forms and high-precision arithmetic.
+
+mod closed_loop;
+mod defaults;
+mod draws;
+mod encoder;

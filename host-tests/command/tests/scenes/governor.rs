@@ -1,0 +1,6 @@
+//! The composed governor: its design, its parts, its modes and trips; the generator sets that it governs.
+
+mod dynamic_part;
+mod generator_sets;
+mod slew;
+mod sway;

@@ -1,0 +1,68 @@
+//! Steady-state gains against a doubling in 100-digit arithmetic (`kalman_gains.json`).
+
+use driveline::design::{Kalman, Matrix};
+use serde_json::Value;
+
+fn matrix<const R: usize, const C: usize>(value: &Value) -> Matrix<R, C> {
+    let mut out = Matrix::ZERO;
+    for i in 0..R {
+        for j in 0..C {
+            out.0[i][j] = value[i][j].as_f64().unwrap();
+        }
+    }
+    out
+}
+
+fn diagonal<const N: usize>(value: &Value) -> Matrix<N, N> {
+    let mut values = [0.0; N];
+    for (i, slot) in values.iter_mut().enumerate() {
+        *slot = value[i].as_f64().unwrap();
+    }
+    Matrix::diagonal(&values)
+}
+
+/// Largest relative difference of the elements.
+fn apart<const R: usize, const C: usize>(a: &Matrix<R, C>, b: &Matrix<R, C>) -> f64 {
+    a.0.iter().flatten().zip(b.0.iter().flatten()).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max)
+}
+
+fn meets<const M: usize>(case: &Value) {
+    let f = matrix::<4, 4>(&case["F"]);
+    let found = Kalman::<4, M>::design(&f, &matrix(&case["H"]), &diagonal(&case["Q_diag"]), &diagonal(&case["R_diag"]))
+        .unwrap();
+    let radius = case["spectral_radius"].as_f64().unwrap();
+    let errors = [
+        apart(&found.gain, &matrix(&case["K_filter"])),
+        apart(&found.predictor_gain(&f), &matrix(&case["K_predictor"])),
+        apart(&found.prior, &matrix(&case["P_prior"])),
+        apart(&found.posterior, &matrix(&case["P_posterior"])),
+        apart(&found.innovation, &matrix(&case["innovation_cov_S"])),
+        (found.spectral_radius / radius - 1.0).abs(),
+    ];
+    println!("{}: gain, predictor, prior, posterior, innovation, radius: {errors:?}", case["id"]);
+    // The file's own tolerance for the gains; the covariances are held to the same.
+    let limit = case["rel_tol_gain"].as_f64().unwrap();
+    assert!(errors.iter().all(|error| *error < limit));
+    for (pole, expected) in found.poles.iter().zip(case["observer_poles_re_im"].as_array().unwrap()) {
+        // Poles come in pairs that lie close together: half the digits of the gains remain in the worst case.
+        let known = case["observer_poles_re_im"].as_array().unwrap();
+        let near = known
+            .iter()
+            .map(|p| (pole.0 - p[0].as_f64().unwrap()).hypot(pole.1 - p[1].as_f64().unwrap()))
+            .fold(f64::INFINITY, f64::min);
+        assert!(near < 1e-9, "{pole:?}, {expected}");
+    }
+}
+
+#[test]
+fn gains_meet_the_reference() {
+    let path = format!("{}/tests/data/kalman_gains.json", env!("CARGO_MANIFEST_DIR"));
+    let file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    for case in file["cases"].as_array().unwrap() {
+        match case["H"].as_array().unwrap().len() {
+            1 => meets::<1>(case),
+            2 => meets::<2>(case),
+            outputs => panic!("{outputs} outputs"),
+        }
+    }
+}
