@@ -10,7 +10,7 @@
 //! from 3:1 to 1:4. The gaps were a third to the whole of the twist under rated torque, the reversals random.
 //!
 //! A motor that outweighs its load needs other numbers: a mill with 5.5 times the rolls' inertia that bites within
-//! 50 ms, 0.08, 0.12, 0.45 and 0.42 (`cargo driveline backlash --bites 20`). An impact moves such a motor little, and
+//! 50 ms, 0.08, 0.12, 0.45 and 0.42 (`cargo lab backlash --bites 20`). An impact moves such a motor little, and
 //! lively gains follow noise. A load torque that wanders less leaves the innovations after the impact to twist and load
 //! speed.
 

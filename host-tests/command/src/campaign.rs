@@ -19,8 +19,6 @@ pub mod file;
 pub mod merge;
 mod page;
 mod plain;
-mod preparation;
-pub mod real;
 pub mod record;
 pub mod ring_down;
 pub mod run;

@@ -9,38 +9,28 @@
 //! Results go to standard output, progress and errors to standard error; an error is a sentence, with `--json` the
 //! object `{"error": ...}`.
 
-mod backlash;
 mod balance;
-mod balancing;
 mod campaign;
-mod check;
-mod commission;
 mod controller;
 mod cosim;
 mod design;
 mod emit;
 mod example;
 mod export;
-mod failure;
-mod generator;
+pub mod failure;
 mod identify;
-mod longest_path;
 mod modes;
 mod new;
-mod output;
-mod peers;
-mod progress;
+pub mod output;
+pub mod progress;
 mod project;
 mod qemu;
 mod recorded;
 mod replay;
-mod report;
-mod results;
+pub mod results;
 mod rotor;
-mod run;
-mod setup;
+pub mod setup;
 mod simulate;
-mod sizes;
 mod watch;
 
 pub use controller::Plan;
@@ -54,9 +44,10 @@ use std::io::ErrorKind;
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{Parser, Subcommand};
 use driveline_qemu::children::end_with_signals;
-use output::{UNSAID, say, say_json};
+use output::UNSAID;
+pub use output::{say, say_json};
 
 /// Controllers for machine drives, checked against a full solver of the machine.
 #[derive(Debug, Parser)]
@@ -66,40 +57,31 @@ struct Cli {
     command: Command,
 }
 
+/// The commands for who designs a machine.
 #[derive(Debug, Subcommand)]
-enum Command {
-    Run(run::Run),
-    Report(report::Report),
-    Backlash(backlash::Backlash),
+pub enum Command {
     Campaign(campaign::Campaign),
     Modes(modes::Modes),
     Design(design::Design),
     Example(example::Example),
     Export(export::Export),
     New(new::New),
+    #[command(hide = true)]
     Qemu(qemu::Qemu),
     Rotor(rotor::Rotor),
     Balancing(balance::Balance),
-    Genset(generator::Generator),
     Identify(identify::Identify),
-    LongestPath(longest_path::LongestPath),
-    Check(check::Check),
-    Commissioning(commission::Commission),
     Cosim(cosim::Cosim),
-    Peers(peers::Peers),
     Replay(replay::Replay),
     Setup(setup::Setup),
     Simulate(simulate::Simulate),
-    Sizes(sizes::Sizes),
     Watch(watch::Watch),
 }
 
 impl Command {
-    fn json(&self) -> bool {
+    /// Whether JSON is printed.
+    pub fn json(&self) -> bool {
         match self {
-            Self::Run(command) => command.json,
-            Self::Report(command) => command.json,
-            Self::Backlash(command) => command.json,
             Self::Campaign(command) => command.json(),
             Self::Modes(command) => command.json,
             Self::Design(command) => command.json,
@@ -109,27 +91,22 @@ impl Command {
             Self::Qemu(_) => false,
             Self::Rotor(command) => command.json,
             Self::Balancing(command) => command.json,
-            Self::Genset(command) => command.json,
             Self::Identify(command) => command.json,
-            Self::LongestPath(command) => command.json,
-            Self::Check(command) => command.json,
-            Self::Commissioning(command) => command.json,
             Self::Cosim(command) => command.json,
-            Self::Peers(command) => command.json,
             Self::Replay(command) => command.json,
             Self::Setup(command) => command.json,
             Self::Simulate(command) => command.json,
-            Self::Sizes(command) => command.json,
             Self::Watch(command) => command.json,
         }
     }
 
-    fn execute(&self) -> Result<(), Failure> {
+    /// Runs the command.
+    ///
+    /// # Errors
+    /// Its sentence, with the exit code.
+    pub fn execute(&self) -> Result<(), Failure> {
         match self {
-            Self::Run(command) => command.execute(),
-            Self::Report(command) => command.execute(),
-            Self::Backlash(command) => command.execute(),
-            Self::Campaign(command) => command.execute(),
+            Self::Campaign(command) => command.execute(&[]),
             Self::Modes(command) => command.execute(),
             Self::Design(command) => command.execute(),
             Self::Example(command) => command.execute(),
@@ -138,33 +115,53 @@ impl Command {
             Self::Qemu(command) => command.execute(),
             Self::Rotor(command) => command.execute(),
             Self::Balancing(command) => command.execute(),
-            Self::Genset(command) => command.execute(),
             Self::Identify(command) => command.execute(),
-            Self::LongestPath(command) => command.execute(),
-            Self::Check(command) => command.execute(),
-            Self::Commissioning(command) => command.execute(),
             Self::Cosim(command) => command.execute(),
-            Self::Peers(command) => command.execute(),
             Self::Replay(command) => command.execute(),
             Self::Setup(command) => command.execute(),
             Self::Simulate(command) => command.execute(),
-            Self::Sizes(command) => command.execute(),
             Self::Watch(command) => command.execute(),
         }
     }
 }
 
-/// Runs a command line, the program's name first, and says how it ended.
+/// A program's arguments.
+pub trait CommandLine: Parser {
+    /// The chosen command prints JSON.
+    fn json(&self) -> bool;
+    /// Runs the chosen command.
+    ///
+    /// # Errors
+    /// Its sentence, with the exit code.
+    fn execute(&self) -> Result<(), Failure>;
+}
+
+impl CommandLine for Cli {
+    fn json(&self) -> bool {
+        self.command.json()
+    }
+
+    fn execute(&self) -> Result<(), Failure> {
+        self.command.execute()
+    }
+}
+
+/// Runs a command line of `cargo driveline`, the program's name first, and says how it ended.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let mut arguments: Vec<OsString> = arguments.into_iter().collect();
     // Cargo runs `cargo-driveline driveline ...` for `cargo driveline ...`.
     if arguments.get(1).is_some_and(|first| first == "driveline") {
         arguments.remove(1);
     }
+    run::<Cli>(&arguments)
+}
+
+/// Runs a command line, the program's name first, and says how it ended.
+pub fn run<C: CommandLine>(arguments: &[OsString]) -> ExitCode {
     // `--seed -1` is a wrong value, not an option that nobody knows
-    let mut grammar = Cli::command().mut_subcommands(|command| command.allow_negative_numbers(true));
-    let parsed = grammar.try_get_matches_from_mut(&arguments);
-    let parsed = parsed.and_then(|matches| Cli::from_arg_matches(&matches).map_err(|error| error.format(&mut grammar)));
+    let mut grammar = C::command().mut_subcommands(|command| command.allow_negative_numbers(true));
+    let parsed = grammar.try_get_matches_from_mut(arguments);
+    let parsed = parsed.and_then(|matches| C::from_arg_matches(&matches).map_err(|error| error.format(&mut grammar)));
     let cli = match parsed {
         Ok(cli) => cli,
         Err(error) if error.use_stderr() && arguments.iter().any(|argument| argument == "--json") => {
@@ -185,14 +182,14 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         }
     };
     if let Err(error) = end_with_signals() {
-        return Failure::failed(format!("signals cannot be caught: {error}")).report(cli.command.json());
+        return Failure::failed(format!("signals cannot be caught: {error}")).report(cli.json());
     }
-    match cli.command.execute() {
+    match cli.execute() {
         Ok(()) if UNSAID.load(Ordering::Relaxed) => {
-            Failure::failed("standard output cannot be written").report(cli.command.json())
+            Failure::failed("standard output cannot be written").report(cli.json())
         }
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => failure.report(cli.command.json()),
+        Err(failure) => failure.report(cli.json()),
     }
 }
 

@@ -1,5 +1,5 @@
 //! The fuzz targets, each a function of any bytes: `cargo fuzz` drives them by coverage, and the tests of the command
-//! (`host-tests/command/tests/scenes/fuzz.rs`) play the corpus and mutations of it.
+//! (`host-tests/lab/tests/scenes/fuzz.rs`) play the corpus and mutations of it.
 
 use std::cell::OnceCell;
 use std::convert::Infallible;

@@ -21,10 +21,10 @@ use driveline_firmware::scene::Scene;
 use super::drive::Drive;
 use super::ring_down::slowest;
 use super::scenes::CampaignScene;
-use crate::closed_loop::ticks::OnHost;
-use crate::drivetrains::lockstep::{LockStep, Moment};
-use crate::drivetrains::plant::Body;
-use crate::drivetrains::scenario::{Action, Machine, Scenario};
+use driveline_closed_loop::lockstep::{LockStep, Moment};
+use driveline_closed_loop::plant::Body;
+use driveline_closed_loop::scenario::{Action, Machine, Scenario};
+use driveline_closed_loop::ticks::OnHost;
 
 /// Most of the answer's swing, of rated torque: the drive's torque stays within its limit.
 const SWING: f64 = 0.2;

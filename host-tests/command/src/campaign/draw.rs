@@ -2,11 +2,11 @@
 
 use core::f64::consts::TAU;
 
-use crate::closed_loop::actuator::ActuatorErrors;
-use crate::closed_loop::encoder_errors::EncoderErrors;
-use crate::drivetrains::departure::Departure;
-use crate::drivetrains::lockstep::Imperfections;
 use crate::machine_file::factor::{Factor, Tolerance};
+use driveline_closed_loop::actuator::ActuatorErrors;
+use driveline_closed_loop::departure::Departure;
+use driveline_closed_loop::encoder_errors::EncoderErrors;
+use driveline_closed_loop::lockstep::Imperfections;
 
 /// Periods of the cogging torque on a turn of the motor: slots of a machine of three pole pairs and 12 slots.
 const COGGING_ORDER: f64 = 12.0;

@@ -2,14 +2,14 @@
 
 use driveline_firmware::Words;
 use driveline_firmware::scene::Scene;
-use driveline_firmware::scenes::{Row, VARIANTS, find};
+use driveline_firmware::scenes::Row;
 
 use super::file::FileObserver;
 use super::plain::PlainLoop;
 use super::scenes::CampaignScene;
-use crate::closed_loop::ticks::OnHost;
-use crate::closed_loop::units::Units;
-use crate::drivetrains::scenario::Machine;
+use driveline_closed_loop::scenario::Machine;
+use driveline_closed_loop::ticks::OnHost;
+use driveline_closed_loop::units::Units;
 
 /// A drive that a campaign runs.
 #[derive(Clone, Copy, Debug)]
@@ -47,11 +47,14 @@ impl Drive {
         let usual = format!("f32/{observer}/{rate}");
         match name.unwrap_or(&usual) {
             PLAIN => Ok(Self::Plain(rate)),
-            name => find(&format!("{}/{name}", machine.name)).map(Self::Variant).ok_or_else(|| {
-                let own = |variant: &'static str| variant.strip_prefix(machine.name)?.strip_prefix('/');
-                let all: Vec<&str> = VARIANTS.iter().copied().filter_map(own).collect();
-                format!("`{}` has no drive `{name}`; expected {} or plain", machine.name, all.join(", "))
-            }),
+            name => {
+                let own = |row: &'static Row| row.name.strip_prefix(machine.name)?.strip_prefix('/');
+                let found = scene.variants().iter().find(|row| own(row) == Some(name));
+                found.map(Self::Variant).ok_or_else(|| {
+                    let all: Vec<&str> = scene.variants().iter().filter_map(own).collect();
+                    format!("`{}` has no drive `{name}`; expected {} or plain", machine.name, all.join(", "))
+                })
+            }
         }
     }
 
@@ -73,6 +76,11 @@ impl Drive {
             Self::Variant(_) | Self::Plain(_) => None,
         };
         lack.map(|lack| lack.to_string())
+    }
+
+    /// Whether learners find its machine.
+    pub fn learns(&self) -> bool {
+        matches!(self, Self::Variant(row) if row.name.split('/').nth(2) == Some("learnt"))
     }
 
     /// Ticks a second.

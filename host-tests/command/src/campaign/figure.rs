@@ -1,6 +1,6 @@
 //! The figures of a run.
 
-use crate::drivetrains::lockstep::Moment;
+use driveline_closed_loop::lockstep::Moment;
 
 /// Lists the figures with their names and units.
 macro_rules! figures {

@@ -12,13 +12,13 @@ use driveline_firmware::scene::{Input, Output, Scene};
 use driveline_solver::plant::train::{Coordinate, Link, Source, Train};
 use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft, Start};
 
-use crate::closed_loop::sensors::Encoder;
-use crate::drivetrains::departure::Departure;
-use crate::drivetrains::plant::Body;
-use crate::drivetrains::scenario::{Action, Machine, Scenario};
 use crate::machine_file::MachineFile;
 use crate::machine_file::designs::Designs;
 use crate::machine_file::train::too_stiff;
+use driveline_closed_loop::departure::Departure;
+use driveline_closed_loop::plant::Body;
+use driveline_closed_loop::scenario::{Action, Machine, Scenario};
+use driveline_closed_loop::sensors::Encoder;
 
 /// The observer of a file's drive, in `f32`, with the exact step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

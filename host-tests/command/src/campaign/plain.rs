@@ -6,8 +6,8 @@ use driveline::design::SpeedLoopDesign;
 use driveline_firmware::Words;
 use driveline_firmware::scene::{Input, Output, Scene};
 
-use crate::closed_loop::units::Units;
 use driveline::settings::Bases;
+use driveline_closed_loop::units::Units;
 
 /// The filter's time constant, of the loop's own.
 const FILTER: f64 = 0.05;

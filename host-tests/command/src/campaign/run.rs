@@ -6,13 +6,12 @@ use super::blow::End;
 use super::draw::Draw;
 use super::drive::Drive;
 use super::figure::{Gathering, Outcome, Scale};
-use super::preparation::preparation;
 use super::scenes::CampaignScene;
-use crate::closed_loop::actuator::ActuatorErrors;
-use crate::closed_loop::encoder_errors::EncoderErrors;
-use crate::closed_loop::ticks::OnHost;
-use crate::drivetrains::lockstep::{Imperfections, LockStep, follow};
-use crate::drivetrains::scenario::{Machine, Scenario};
+use driveline_closed_loop::actuator::ActuatorErrors;
+use driveline_closed_loop::encoder_errors::EncoderErrors;
+use driveline_closed_loop::lockstep::{Imperfections, LockStep, follow};
+use driveline_closed_loop::scenario::{Machine, Scenario};
+use driveline_closed_loop::ticks::OnHost;
 
 /// Runs a draw. One that swings at the end runs again without noise and errors of the encoder, to find out whether the
 /// loop sustains the swing or the sensors do.
@@ -27,7 +26,7 @@ pub fn run(scene: &CampaignScene, drive: &Drive, draw: &Draw) -> Result<Outcome,
     let mut imperfections = draw.imperfections(scene.lines, scene.rated_torque);
     imperfections.actuator.delay += scene.actuator.delay * f64::from(drive.rate_hz());
     imperfections.actuator.lag += scene.actuator.lag;
-    let prepared = preparation(scene.name, drive, &draw.departure()).map_err(|error| wrong(&error))?;
+    let prepared = scene.preparation(drive, &draw.departure()).map_err(|error| wrong(&error))?;
     let follow = |machine: &Machine, imperfections: &Imperfections| {
         let ticking = drive.start(scene, machine).map_err(|error| wrong(&error))?;
         follow_draw(scene, drive, machine, &prepared, &scenario, imperfections, ticking).map_err(|error| wrong(&error))

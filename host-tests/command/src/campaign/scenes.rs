@@ -1,23 +1,17 @@
-//! The scenes that campaigns are run of, and machine files as scenes, with their tolerances.
-//!
-//! The tolerances are those of a class of machines, and the scene's own.
+//! What a campaign is run of: a machine file, or a scene that has the tolerances of a class of machines and its own.
 
 use driveline::configure::Machine as Designed;
-use driveline::design::{Actuator, SpeedLoopDesign, Tolerance as Usual};
-use driveline_firmware::scenes::blooming_mill::{self, BloomingMill};
-use driveline_firmware::scenes::crane_travel::{self, CraneTravel};
-use driveline_firmware::scenes::hoist::{self, Hoist};
-use driveline_firmware::scenes::spindle::{self, Spindle};
-use driveline_firmware::scenes::strip_mill::{self, StripMill};
+use driveline::design::{Actuator, SpeedLoopDesign};
+use driveline_firmware::scenes::Row;
 use driveline_solver::plant::PlantError;
 
+use super::drive::Drive;
 use super::file::FileCase;
-use crate::drivetrains;
-use crate::drivetrains::departure::Departure;
-use crate::drivetrains::scenario::Machine;
 use crate::machine_file::MachineFile;
-use crate::machine_file::class::{Class, usual};
-use crate::machine_file::factor::{Factor, Tolerance};
+use crate::machine_file::class::Class;
+use crate::machine_file::factor::Tolerance;
+use driveline_closed_loop::departure::Departure;
+use driveline_closed_loop::scenario::{Machine, Scenario};
 
 /// A scene that campaigns are run of.
 #[derive(Clone, Copy, Debug)]
@@ -43,12 +37,36 @@ pub struct CampaignScene {
     pub resonance: f64,
 }
 
+/// A scene of the firmware.
+#[derive(Clone, Copy, Debug)]
+pub struct Firmware {
+    /// Its plant.
+    pub departing: fn(&Departure) -> Result<Machine, PlantError>,
+    /// The runs in which its learners find the machine, with known loads or without load.
+    pub preparation: fn(&Departure) -> Result<Vec<Scenario>, PlantError>,
+    /// The class that motor, inverter and encoder have their tolerances from.
+    pub class: Class,
+    /// Its own tolerances.
+    pub tolerances: &'static [Tolerance],
+    /// Its variants.
+    pub variants: &'static [Row],
+}
+
+impl Firmware {
+    /// No learners, no preparation.
+    ///
+    /// # Errors
+    /// None.
+    pub fn unprepared(_: &Departure) -> Result<Vec<Scenario>, PlantError> {
+        Ok(Vec::new())
+    }
+}
+
 /// Where a scene's machine comes from.
 #[derive(Clone, Copy, Debug)]
 enum Source {
-    /// A scene of the firmware: its plant; the class that motor, inverter and encoder have their tolerances from; its
-    /// own tolerances.
-    Scene(fn(&Departure) -> Result<Machine, PlantError>, Class, &'static [Tolerance]),
+    /// A scene of the firmware.
+    Scene(Firmware),
     /// A file.
     File(&'static FileCase),
 }
@@ -80,8 +98,27 @@ impl CampaignScene {
     /// A figure of the plant that is out of range.
     pub fn departing(&self, by: &Departure) -> Result<Machine, PlantError> {
         match self.source {
-            Source::Scene(departing, ..) => departing(by),
+            Source::Scene(scene) => (scene.departing)(by),
             Source::File(case) => case.departing(by),
+        }
+    }
+
+    /// The runs before that of a draw, in which a drive's learners find its machine; none of a drive without learners.
+    ///
+    /// # Errors
+    /// Values that no plant can have.
+    pub fn preparation(&self, drive: &Drive, by: &Departure) -> Result<Vec<Scenario>, PlantError> {
+        match self.source {
+            Source::Scene(scene) if drive.learns() => (scene.preparation)(by),
+            Source::Scene(_) | Source::File(_) => Ok(Vec::new()),
+        }
+    }
+
+    /// The variants of its firmware; none of a file.
+    pub const fn variants(&self) -> &'static [Row] {
+        match self.source {
+            Source::Scene(scene) => scene.variants,
+            Source::File(_) => &[],
         }
     }
 
@@ -93,17 +130,11 @@ impl CampaignScene {
         }
     }
 
-    /// A scene with ratings, ramp and speed loop of the design that its firmware is built from.
-    const fn of<M: Designed>(
-        name: &'static str,
-        departing: fn(&Departure) -> Result<Machine, PlantError>,
-        (class, own): (Class, &'static [Tolerance]),
-        lines: f64,
-        free: (f64, f64),
-    ) -> Self {
+    /// A scene with ratings, ramp and speed loop of the design that its firmware is built from; see the fields.
+    pub const fn of<M: Designed>(name: &'static str, scene: Firmware, lines: f64, free: (f64, f64)) -> Self {
         CampaignScene {
             name,
-            source: Source::Scene(departing, class, own),
+            source: Source::Scene(scene),
             actuator: M::ACTUATOR,
             lines,
             rated_torque: M::RATING.torque,
@@ -118,69 +149,8 @@ impl CampaignScene {
     /// Its tolerances.
     pub fn tolerances(&self) -> Vec<Tolerance> {
         match self.source {
-            Source::Scene(_, class, own) => class.drive().into_iter().chain(own.iter().copied()).collect(),
+            Source::Scene(scene) => scene.class.drive().into_iter().chain(scene.tolerances.iter().copied()).collect(),
             Source::File(case) => case.machine.tolerances.clone(),
         }
     }
 }
-
-/// The hoist's: 0.5 to 13 t on 5 to 30 m of rope, where the design has 12 t on 12 m; the oil is cold or warm.
-const LIFTS: &[Tolerance] = &[
-    usual(Factor::Stiffness, Usual::USUAL.stiffness),
-    Tolerance::new(Factor::Load, 0.5 / 12.0, 13.0 / 12.0),
-    Tolerance::new(Factor::Rope, 5.0 / 12.0, 30.0 / 12.0),
-    Tolerance::new(Factor::Efficiency, -0.03, 0.03),
-];
-
-/// The crane's: load and length of the pendulum, to the accuracy of the drive's constants.
-const SWINGS: &[Tolerance] = &[Tolerance::new(Factor::Load, 0.9, 1.1), Tolerance::new(Factor::Rope, 0.9, 1.1)];
-
-/// Rolls and tools are changed.
-const CHANGED: &[Tolerance] =
-    &[usual(Factor::Stiffness, Usual::USUAL.stiffness), usual(Factor::LoadInertia, Usual::USUAL.load_inertia)];
-
-/// The same, and the spindles' gap wears.
-const GAP: &[Tolerance] = &[
-    usual(Factor::Stiffness, Usual::USUAL.stiffness),
-    usual(Factor::LoadInertia, Usual::USUAL.load_inertia),
-    usual(Factor::Gap, Usual::USUAL.gap),
-];
-
-/// The scenes.
-pub const SCENES: [CampaignScene; 5] = [
-    CampaignScene::of::<Hoist<10_000>>(
-        hoist::SCENE,
-        drivetrains::hoist::departing,
-        (Class::Crane, LIFTS),
-        2048.0,
-        (6.1, 8.0),
-    ),
-    CampaignScene::of::<StripMill>(
-        strip_mill::SCENE,
-        drivetrains::strip_mill::departing,
-        (Class::Mill, CHANGED),
-        4096.0,
-        (7.1, 9.0),
-    ),
-    CampaignScene::of::<Spindle>(
-        spindle::SCENE,
-        drivetrains::spindle::departing,
-        (Class::MachineTool, CHANGED),
-        512.0,
-        (1.503, 1.56),
-    ),
-    CampaignScene::of::<BloomingMill>(
-        blooming_mill::SCENE,
-        drivetrains::blooming_mill::departing,
-        (Class::Mill, GAP),
-        8192.0,
-        (5.8, 6.6),
-    ),
-    CampaignScene::of::<CraneTravel>(
-        crane_travel::SCENE,
-        drivetrains::crane_travel::departing,
-        (Class::Crane, SWINGS),
-        1024.0,
-        (32.0, 40.0),
-    ),
-];

@@ -13,14 +13,14 @@ use crate::campaign::drive::Drive;
 use crate::campaign::merge::{Shard, merge};
 use crate::campaign::record::{Record, Settings};
 use crate::campaign::run::run;
-use crate::campaign::scenes::{CampaignScene, SCENES};
+use crate::campaign::scenes::CampaignScene;
 use crate::campaign::{Draw, Figure, Outcome, Summary, Tolerance, work};
-use crate::drivetrains::departure::Departure;
 use crate::machine_file::read;
+use driveline_closed_loop::departure::Departure;
 use driveline_report::format::{percent, significant};
 use driveline_report::{Fact, Table};
 
-/// Run a scene's drive in closed loop with many machines drawn from its tolerances.
+/// Run a machine's drive in closed loop with many machines drawn from within its tolerances.
 ///
 /// Stiffness, inertias, efficiency, gap, load and rope, torque constant and offset, cogging, delay and lag of the
 /// torque, encoder and timing: each draw has other values. The library's own code runs on the host, with the bits of
@@ -30,18 +30,18 @@ use driveline_report::{Fact, Table};
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true)]
 #[command(after_help = "Examples:
-  cargo driveline campaign hoist --draws 1000
-  cargo driveline campaign spindle --tolerance jitter=0 --drive f32/rigid/10000
-  cargo driveline campaign hoist --draws 10000 --shard 3/8 --results shard-3.draws
+  cargo driveline campaign hoist.toml --draws 1000
+  cargo driveline campaign axis.toml --tolerance jitter=0 --drive rigid
+  cargo driveline campaign hoist.toml --draws 10000 --shard 3/8 --results shard-3.draws
   cargo driveline campaign merge shard-*.draws --html hoist.html
-  cargo driveline campaign hoist --drive plain --results plain.draws
+  cargo driveline campaign hoist.toml --drive plain --results plain.draws
   cargo driveline campaign compare hoist.draws plain.draws
-  cargo driveline campaign my.toml --draws 500
-  cargo driveline campaign hoist --draw 17 --json")]
+  cargo driveline campaign hoist.toml --draw 17 --json")]
 pub struct Campaign {
     #[command(subcommand)]
     further: Option<Further>,
-    /// The scene: hoist, strip-mill, spindle, blooming-mill or crane-travel; or a machine file, FILE.toml
+    /// The machine file, FILE.toml; in the laboratory a scene, too: hoist, strip-mill, spindle, blooming-mill or
+    /// crane-travel
     #[arg(required = true)]
     scene: Option<String>,
     /// Number of draws
@@ -50,8 +50,8 @@ pub struct Campaign {
     /// Seed of the draws
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// The drive: a variant of the scene, as NUMBER/OBSERVER/RATE; of a machine file two-mass or rigid; or `plain`, a
-    /// loop without an observer [default: the design's choice in f32]
+    /// The drive: two-mass or rigid, of a scene a variant as NUMBER/OBSERVER/RATE; or `plain`, a loop without an
+    /// observer [default: the design's choice in f32]
     #[arg(long, value_name = "DRIVE")]
     drive: Option<String>,
     /// Range of a factor, as NAME=LOW..HIGH or NAME=VALUE, in place of the scene's; may be repeated
@@ -143,20 +143,20 @@ impl Campaign {
         }
     }
 
-    /// Runs the draws that are not done and shows all, or merges shards.
+    /// Runs the draws that are not done and shows all, or merges shards; of a machine file or of one of `scenes`.
     ///
     /// # Errors
     /// A wrong argument; a file of another campaign; a result that cannot be written.
-    pub fn execute(&self) -> Result<(), Failure> {
+    pub fn execute(&self, scenes: &[CampaignScene]) -> Result<(), Failure> {
         match &self.further {
             Some(Further::Merge(merge)) => merge.execute(),
             Some(Further::Compare(compare)) => compare.execute(),
-            None => self.run(),
+            None => self.run(scenes),
         }
     }
 
-    fn run(&self) -> Result<(), Failure> {
-        let scene = &self.scene()?;
+    fn run(&self, scenes: &[CampaignScene]) -> Result<(), Failure> {
+        let scene = &self.scene(scenes)?;
         let name = scene.name;
         let drive = scene
             .departing(&Departure::NONE)
@@ -224,16 +224,20 @@ impl Campaign {
     }
 
     /// The scene of a name, or of a machine file.
-    fn scene(&self) -> Result<CampaignScene, Failure> {
+    fn scene(&self, scenes: &[CampaignScene]) -> Result<CampaignScene, Failure> {
         let name = self.scene.as_deref().unwrap_or_default();
-        if let Some(scene) = SCENES.iter().find(|scene| scene.name == name) {
+        if let Some(scene) = scenes.iter().find(|scene| scene.name == name) {
             return Ok(*scene);
         }
         let path = Path::new(name);
         if path.extension().is_some_and(|extension| extension == "toml") {
             return CampaignScene::of_file(read(path)?).map_err(|error| Failure::usage(format!("{name}: {error}")));
         }
-        let names = SCENES.map(|scene| format!("`{}`", scene.name)).join(", ");
+        if scenes.is_empty() {
+            return Err(Failure::usage(format!("a campaign is run of a machine file FILE.toml, not of `{name}`")));
+        }
+        let names: Vec<String> = scenes.iter().map(|scene| format!("`{}`", scene.name)).collect();
+        let names = names.join(", ");
         Err(Failure::usage(format!("there is no campaign of a scene `{name}`; there are {names}, and files FILE.toml")))
     }
 

@@ -33,7 +33,7 @@ struct Entry {
 const EXAMPLES: [(&str, &str, &str); 16] = [
     ("hoist", "modes, design", include_str!("../../machines/hoist.toml")),
     ("roll", "modes, design", include_str!("../../machines/roll.toml")),
-    ("axis", "modes, design, commissioning", include_str!("../../machines/axis.toml")),
+    ("axis", "modes, design", include_str!("../../machines/axis.toml")),
     ("mill", "modes, design", include_str!("../../machines/mill.toml")),
     ("ship", "modes", include_str!("../../machines/ship.toml")),
     ("gear-pair", "simulate, modes", include_str!("../../trains/gear-pair.toml")),

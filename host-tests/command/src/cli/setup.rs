@@ -26,7 +26,7 @@ pub struct Setup {
 ///
 /// # Errors
 /// The current folder is in no clone; what could not be installed.
-pub(super) fn ready(needs: &[Need]) -> Result<(), Failure> {
+pub fn ready(needs: &[Need]) -> Result<(), Failure> {
     workspace().map_err(|error| Failure::usage(error.to_string()))?;
     install(needs).map(drop)
 }
@@ -35,7 +35,7 @@ pub(super) fn ready(needs: &[Need]) -> Result<(), Failure> {
 ///
 /// # Errors
 /// What could not be installed, and the command to type.
-pub(super) fn install(needs: &[Need]) -> Result<Vec<String>, Failure> {
+pub fn install(needs: &[Need]) -> Result<Vec<String>, Failure> {
     ensure(needs, |command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))
 }
 

@@ -151,7 +151,7 @@ impl Factor {
             Self::Efficiency => (-0.5, 0.05),
             Self::TorqueOffset => (-1.0, 1.0),
             Self::Cogging | Self::Interpolation | Self::MissedTicks => (0.0, 1.0),
-            Self::Delay => (0.0, crate::closed_loop::actuator::MAX_DELAY),
+            Self::Delay => (0.0, driveline_closed_loop::actuator::MAX_DELAY),
             Self::Lag | Self::Jitter => (0.0, 0.1),
             Self::Eccentricity => (0.0, 0.5),
         }

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use cargo_driveline::campaign::scenes::CampaignScene;
 use cargo_driveline::cli::Plan;
-use cargo_driveline::drivetrains::departure::Departure;
 use cargo_driveline::machine_file::parse;
+use driveline_closed_loop::departure::Departure;
 use driveline_report::format::{percent, significant};
 use nalgebra::{Complex, Matrix3, Vector3};
 use serde_json::Value;

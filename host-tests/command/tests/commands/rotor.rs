@@ -108,17 +108,6 @@ fn a_file_that_is_not_there_is_a_fault_of_the_file() {
     assert_eq!((fault.line, fault.key.as_str()), (0, ""));
 }
 
-#[test]
-fn a_scene_or_a_variant_that_is_not_there_is_refused() {
-    let output = driveline(&["run", "balanced-fan", "--variants", "nonsense"]);
-    let text = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(2));
-    assert!(text.contains("no variant of `balanced-fan` contains `nonsense`"), "{text}");
-    let output = driveline(&["run", "turbine"]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8(output.stderr).unwrap().contains("`flexible`"));
-}
-
 const LONG: &str = r#"
 name = "long shaft"
 element = [{ length = 2.0, diameter = 0.06, pieces = 10 }]

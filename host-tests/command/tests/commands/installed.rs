@@ -1,0 +1,76 @@
+//! What `cargo install` puts on the path.
+
+use std::process::{Command, Output};
+
+fn out(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn err(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// Those for who designs a machine, and none of the laboratory's.
+#[test]
+fn the_installed_commands_are_the_designers() {
+    let output = Command::new(env!("CARGO_BIN_EXE_cargo-driveline")).args(["driveline", "--help"]).output().unwrap();
+    let help = out(&output);
+    let (_, listed) = help.split_once("Commands:\n").unwrap();
+    let listed = listed.split("\n\n").next().unwrap();
+    let names = listed.lines().filter(|line| line.starts_with("  ") && !line.starts_with("   "));
+    let names: Vec<&str> = names.filter_map(|line| line.split_whitespace().next()).collect();
+    let expected = [
+        "campaign",
+        "modes",
+        "design",
+        "example",
+        "export",
+        "new",
+        "rotor",
+        "balancing",
+        "identify",
+        "cosim",
+        "replay",
+        "setup",
+        "simulate",
+        "watch",
+        "help",
+    ];
+    assert_eq!(names, expected, "{help}");
+}
+
+/// In a folder of nothing: what a file is needed for gets it from the program, what a clone is needed for says so.
+#[test]
+fn an_installed_command_works_in_any_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+        command
+            .arg("driveline")
+            .args(arguments)
+            .current_dir(folder.path())
+            .env_remove("CARGO_TARGET_DIR")
+            .output()
+            .unwrap()
+    };
+    let names = out(&run(&["example"]));
+    for line in names.lines() {
+        let (name, commands) = line.split_once(' ').unwrap();
+        // a recording of another rate and sensor needs them said: below
+        if name == "bench-log" {
+            continue;
+        }
+        let file = format!("{name}.toml");
+        std::fs::write(folder.path().join(&file), out(&run(&["example", name]))).unwrap();
+        for command in commands.trim().split(", ") {
+            let output = run(&[command, &file]);
+            assert!(output.status.success(), "{command} {file}: {}", err(&output));
+        }
+    }
+    std::fs::write(folder.path().join("bench.csv"), out(&run(&["example", "bench-log"]))).unwrap();
+    let recorded = ["bench.csv", "--rate", "2500", "--torque-constant", "0.564"];
+    for options in [&["identify", "--to", "5", "--toml", "bench.toml"][..], &["replay", "--machine", "bench.toml"]] {
+        let output = run(&[options, &recorded].concat());
+        assert!(output.status.success(), "{options:?}: {}", err(&output));
+    }
+}

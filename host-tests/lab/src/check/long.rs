@@ -1,0 +1,148 @@
+//! The long runs, on demand. A line of a step that has `measured: ` in it is kept with its result.
+//!
+//! What takes long is a test like the others, ignored for its length and named here.
+
+use driveline_firmware::board::BOARDS;
+use driveline_qemu::image::{Program, build};
+
+use super::each::{each, passed};
+use super::gap::{Gap, Inputs, table};
+use super::steps::together;
+use super::{Count, Failed, Step, Voice, cargo, pages};
+
+/// The package of the tests of scenes and commands.
+const LAB: &str = "driveline-lab";
+
+/// All long steps, the shortest first.
+pub const LONG: [Step; 8] = [
+    Step {
+        name: "power-cuts",
+        content: "the flash's power cut at every byte of a save: the record is the old one or the new one",
+        repeat: "cargo lab check --long --only power-cuts",
+        run: power_cuts,
+    },
+    Step {
+        name: "pages",
+        content: "the pages of commands that run firmware, on two screens and in print",
+        repeat: "cargo lab check --long --only pages",
+        run: pages::of_firmware,
+    },
+    Step {
+        name: "ticks",
+        content: "a thousand million ticks without drift, ten million with random reversals",
+        repeat: "cargo lab check --long --only ticks",
+        run: ticks,
+    },
+    Step {
+        name: "starts",
+        content: "100,000 in-run balancings: none ends worse than it began",
+        repeat: "cargo lab check --long --only starts",
+        run: starts,
+    },
+    Step {
+        name: "attacks",
+        content: "6,000 malformed files, streams and argument lists, a disk that is full at every write, signals",
+        repeat: "cargo lab check --long --only attacks",
+        run: attacks,
+    },
+    Step {
+        name: "seeds",
+        content: "three machines commissioned over 40 seeds of the torque's noise, each within its aims",
+        repeat: "cargo lab check --long --only seeds",
+        run: seeds,
+    },
+    Step {
+        name: "inputs",
+        content: "three million inputs of each image and function in QEMU, a million sought: none above its bound",
+        repeat: "cargo lab check --long --only inputs",
+        run: inputs,
+    },
+    Step {
+        name: "mutants",
+        content: "each operator and result of the tick path changed: at least 95 % of each part noticed by a test",
+        repeat: "cargo lab check --long --only mutants",
+        run: mutants,
+    },
+];
+
+fn power_cuts(voice: &Voice) -> Result<Count, Failed> {
+    cargo::ignored_tests("driveline", "library", &["a_power_cut_at_every_byte_of_every_history"], voice)
+}
+
+fn ticks(voice: &Voice) -> Result<Count, Failed> {
+    let library = ["nothing_drifts_in_a_thousand_million_ticks", "an_even_engine_has_no_weak_cylinder"];
+    let closed_loop = ["it_stays_right_over_ten_million_ticks", "the_same_in_fixed_point"];
+    let tests = |package, program, names| cargo::ignored_tests(package, program, names, voice);
+    together([tests("driveline", "library", &library), tests(LAB, "closed_loop", &closed_loop)])
+}
+
+fn starts(voice: &Voice) -> Result<Count, Failed> {
+    cargo::ignored_tests("driveline", "library", &["a_hundred_thousand_starts_end_no_worse"], voice)
+}
+
+fn attacks(voice: &Voice) -> Result<Count, Failed> {
+    let attacks = [
+        "six_thousand_malformed_files_streams_and_arguments",
+        "a_full_disk_at_every_write_loses_nothing",
+        "signals_at_fifty_moments",
+    ];
+    cargo::ignored_tests(LAB, "attack", &attacks, voice)
+}
+
+fn seeds(voice: &Voice) -> Result<Count, Failed> {
+    cargo::ignored_tests(LAB, "closed_loop", &["every_machine_over_forty_seeds"], voice)
+}
+
+/// A variant without a bound has nothing to exceed.
+fn inputs(voice: &Voice) -> Result<Count, Failed> {
+    let inputs = Inputs::of_environment().map_err(Failed::whole)?;
+    let mut gaps = each(|variant, board| {
+        let image = build(variant, board, Program::ControlLoop, |_| {}).map_err(|error| error.to_string())?;
+        let gap = Gap::of(&image, inputs)?;
+        voice.say(&gap.to_string());
+        Ok(gap)
+    })?;
+    let images = gaps.len();
+    let functions = std::thread::scope(|scope| {
+        let boards: Vec<_> =
+            BOARDS.iter().map(|&board| scope.spawn(move || Gap::of_functions(board, inputs))).collect();
+        boards
+            .into_iter()
+            .map(|board| board.join().unwrap_or_else(|_| Err("a board's thread panicked".into())))
+            .collect()
+    });
+    let functions: Result<Vec<_>, _> = functions;
+    gaps.extend(functions.map_err(Failed::whole)?.into_iter().flatten());
+    voice.say(&table(&gaps, &BOARDS.iter().map(|board| board.core).collect::<Vec<_>>()));
+    let shares = |of: fn(&Gap) -> bool| {
+        let mut shares: Vec<f64> = gaps.iter().filter(|gap| of(gap)).filter_map(Gap::share).collect();
+        shares.sort_by(f64::total_cmp);
+        shares
+    };
+    let (all, hoist) = (shares(|_| true), shares(Gap::is_hoist));
+    if let (Some(least), Some(median), Some(of_hoist)) = (all.first(), all.get(all.len() / 2), hoist.first()) {
+        let Inputs { drawn, sought } = inputs;
+        voice.say(&format!(
+            "measured: {drawn} inputs drawn and {sought} sought for each of {images} images, {drawn} calls of each of \
+             {} functions; of {} with a bound the worst is {:.1} % of it at least, {:.1} % in the median, {:.1} % at \
+             least for the hoist",
+            gaps.len() - images,
+            all.len(),
+            100.0 * least,
+            100.0 * median,
+            100.0 * of_hoist
+        ));
+    }
+    let faults: Vec<String> = gaps.iter().filter_map(|gap| gap.holds().err()).collect();
+    if faults.is_empty() {
+        return Ok(passed(&gaps));
+    }
+    let failed = faults.len() as u64;
+    let count = Count { passed: gaps.len() as u64 - failed, failed };
+    Err(Failed { count, message: faults.join("\n") })
+}
+
+/// It says how far it is, and what it has found at the end.
+fn mutants(voice: &Voice) -> Result<Count, Failed> {
+    cargo::passes(&["run", "--manifest-path=host-tests/mutants/Cargo.toml", "--", "--least", "95"], voice)
+}

@@ -1,0 +1,163 @@
+//! `cargo lab check`: everything that must hold before a commit, in order, up to the first failure; the long runs
+//! on demand, all of them, with their last results on a page.
+
+mod cargo;
+mod clock;
+pub mod comparison;
+mod each;
+mod gap;
+pub mod last;
+mod long;
+mod pages;
+mod step;
+mod steps;
+
+use driveline_report::Table;
+use serde::Serialize;
+
+pub use long::LONG;
+pub use step::{Count, Step};
+pub use steps::STEPS;
+
+use clock::{Clock, Took};
+use step::{Failed, Voice};
+
+/// Options of a check.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// One JSON object a step on standard output, all else on standard error.
+    pub json: bool,
+    /// The long runs, [`LONG`], in place of [`STEPS`]; a failure does not stop the others.
+    pub long: bool,
+    /// Only the step of this name.
+    pub only: Option<String>,
+}
+
+/// A step that has run.
+#[derive(Clone, Debug, Serialize)]
+pub struct Done {
+    /// Its name.
+    pub step: &'static str,
+    /// Its findings.
+    #[serde(flatten)]
+    pub count: Count,
+    /// Its figures, as sentences.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub figures: Vec<String>,
+    /// How long it took.
+    #[serde(flatten)]
+    pub took: Took,
+    /// The error.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<String>,
+    /// Command to run it again.
+    pub repeat: String,
+}
+
+/// Why the check failed.
+#[derive(Debug, thiserror::Error)]
+pub enum CheckError {
+    /// A step failed.
+    #[error("{step} failed: {message}\nto repeat: {repeat}")]
+    Step {
+        /// Its name.
+        step: &'static str,
+        /// Its output.
+        message: String,
+        /// Command to type.
+        repeat: String,
+    },
+    /// No step has that name.
+    #[error("no {0} is called `{1}`; there are {2}")]
+    NoSuchStep(&'static str, String, String),
+    /// The long runs that failed.
+    #[error("failed: {0}")]
+    Long(String),
+    /// Why a step's result could not be written to the page.
+    #[error("{0}")]
+    Kept(String),
+}
+
+/// Runs the steps up to the first failure, or all long runs; each result is handed on to be kept. Says each with its
+/// time, and at the end the closing line `N passed, N failed`.
+///
+/// # Errors
+/// No such step, a step that failed, a result that cannot be kept.
+pub fn run(
+    options: &Options,
+    mut keep: impl FnMut(&Step, &Done) -> Result<(), String>,
+) -> Result<Vec<Done>, CheckError> {
+    let voice = Voice::new(options.json);
+    let (kind, all): (_, &[Step]) = if options.long { ("long step", &LONG) } else { ("step", &STEPS) };
+    let chosen = |step: &&Step| options.only.as_ref().is_none_or(|only| only == step.name);
+    let steps: Vec<_> = all.iter().filter(chosen).collect();
+    if let (Some(only), true) = (&options.only, steps.is_empty()) {
+        let names: Vec<_> = all.iter().map(|step| step.name).collect();
+        return Err(CheckError::NoSuchStep(kind, only.clone(), names.join(", ")));
+    }
+    let (mut all, mut failed) = (Vec::new(), Vec::new());
+    for step in steps {
+        let done = once(step, &voice);
+        keep(step, &done).map_err(CheckError::Kept)?;
+        let error = done.error.clone();
+        all.push(done);
+        let Some(message) = error else { continue };
+        if !options.long {
+            close(&all, &voice);
+            return Err(CheckError::Step { step: step.name, message, repeat: step.repeat.into() });
+        }
+        failed.push(format!("{}: {message}\nto repeat: {}", step.name, step.repeat));
+    }
+    close(&all, &voice);
+    if failed.is_empty() { Ok(all) } else { Err(CheckError::Long(failed.join("\n"))) }
+}
+
+fn once(step: &Step, voice: &Voice) -> Done {
+    voice.say(&format!("== {}: {}", step.name, step.content));
+    let clock = Clock::start();
+    let result = (step.run)(voice);
+    let took = clock.took();
+    let (count, error) = match result {
+        Ok(count) => (count, None),
+        Err(Failed { count, message }) => (count, Some(message)),
+    };
+    let verdict = if error.is_none() { "ok" } else { "FAILED" };
+    voice.say(&format!("== {}: {verdict}, {} passed, {:.1} s", step.name, count.passed, took.seconds));
+    let figures = voice.figures();
+    let done = Done { step: step.name, count, figures, took, error, repeat: step.repeat.into() };
+    if voice.json {
+        println!("{}", serde_json::to_string(&done).unwrap_or_default());
+    }
+    done
+}
+
+/// The steps with what they took, and the closing line.
+fn close(all: &[Done], voice: &Voice) {
+    let passed: u64 = all.iter().map(|done| done.count.passed).sum();
+    let failed: u64 = all.iter().map(|done| done.count.failed).sum();
+    voice.say(times(all).to_string().trim_end());
+    if voice.json {
+        println!("{}", serde_json::json!({ "passed": passed, "failed": failed }));
+    } else {
+        println!("{passed} passed, {failed} failed");
+    }
+}
+
+/// What each step took, and their sum.
+fn times(all: &[Done]) -> Table {
+    let mut table = Table::new(["step", "passed", "failed", "wall s", "processor s"]);
+    let mut row = |name: &str, Count { passed, failed }, took: Took| {
+        let processor = took.processor_seconds.map_or_else(String::new, |seconds| format!("{seconds:.1}"));
+        let seconds = format!("{:.1}", took.seconds);
+        table.row([name.to_owned(), passed.to_string(), failed.to_string(), seconds, processor]);
+    };
+    for done in all {
+        row(done.step, done.count, done.took);
+    }
+    let sum = |of: fn(&Done) -> u64| all.iter().map(of).sum();
+    let count = Count { passed: sum(|done| done.count.passed), failed: sum(|done| done.count.failed) };
+    let seconds = all.iter().map(|done| done.took.seconds).sum();
+    let processor_seconds = all.iter().map(|done| done.took.processor_seconds).sum();
+    row("all", count, Took { seconds, processor_seconds });
+    table
+}

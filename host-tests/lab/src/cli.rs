@@ -1,0 +1,82 @@
+//! The command line of the laboratory: its own commands, and those of `cargo driveline`.
+
+mod backlash;
+mod balancing;
+mod check;
+mod commission;
+mod generator;
+mod longest_path;
+mod peers;
+mod report;
+mod run;
+mod sizes;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use cargo_driveline::cli::{CommandLine, Failure};
+use clap::{Parser, Subcommand};
+
+use crate::campaign::SCENES;
+
+/// The firmware's scenes in closed loop with the full solver, studies, and the check of everything
+#[derive(Debug, Parser)]
+#[command(name = "cargo lab", bin_name = "cargo lab", version, max_term_width = 100)]
+struct Lab {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Backlash(backlash::Backlash),
+    Check(check::Check),
+    Commissioning(commission::Commission),
+    Genset(generator::Generator),
+    LongestPath(longest_path::LongestPath),
+    Peers(peers::Peers),
+    Report(report::Report),
+    Run(run::Run),
+    Sizes(sizes::Sizes),
+    #[command(flatten)]
+    Driveline(cargo_driveline::cli::Command),
+}
+
+impl CommandLine for Lab {
+    fn json(&self) -> bool {
+        match &self.command {
+            Command::Backlash(command) => command.json,
+            Command::Check(command) => command.json,
+            Command::Commissioning(command) => command.json,
+            Command::Genset(command) => command.json,
+            Command::LongestPath(command) => command.json,
+            Command::Peers(command) => command.json,
+            Command::Report(command) => command.json,
+            Command::Run(command) => command.json,
+            Command::Sizes(command) => command.json,
+            Command::Driveline(command) => command.json(),
+        }
+    }
+
+    fn execute(&self) -> Result<(), Failure> {
+        match &self.command {
+            Command::Backlash(command) => command.execute(),
+            Command::Check(command) => command.execute(),
+            Command::Commissioning(command) => command.execute(),
+            Command::Genset(command) => command.execute(),
+            Command::LongestPath(command) => command.execute(),
+            Command::Peers(command) => command.execute(),
+            Command::Report(command) => command.execute(),
+            Command::Run(command) => command.execute(),
+            Command::Sizes(command) => command.execute(),
+            Command::Driveline(cargo_driveline::cli::Command::Campaign(command)) => command.execute(SCENES),
+            Command::Driveline(command) => command.execute(),
+        }
+    }
+}
+
+/// Runs a command line, the program's name first, and says how it ended.
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    cargo_driveline::cli::run::<Lab>(&arguments)
+}

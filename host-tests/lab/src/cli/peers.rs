@@ -1,0 +1,98 @@
+//! `cargo lab peers`: other observers on the scenes' own runs.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use driveline_firmware::board::BOARDS;
+
+use crate::peers::{
+    Comparison, Images, Replay, SceneComparison, beside_observers, governors, peers_markdown, peers_page, scenes,
+    solvers,
+};
+use crate::stamp::Stamp;
+use cargo_driveline::cli::results::{Destination, check};
+use cargo_driveline::cli::setup::ready;
+use cargo_driveline::cli::{Failure, Progress, say, say_json};
+use driveline_qemu::setup::Need;
+
+/// Compare the library's observers with others on the scenes' own runs: errors, instructions, code, stack and state.
+///
+/// The others are constant gains by hand and by `nalgebra`, Luenberger, a disturbance observer, a low-pass, and the
+/// Kalman filters of `idsp`, `adskalman`, `minikalman` and `kfilter`. They are dependencies of a crate of their own,
+/// which this command builds. Beside them are speed loops of `pid`, `pid-ctrl` and `idsp` on the strip mill, and least
+/// squares of balancing by `nalgebra`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  cargo lab peers
+  cargo lab peers --scene hoist fan
+  cargo lab peers --markdown doc/peers.md")]
+pub struct Peers {
+    /// Only these scenes
+    #[arg(long, value_name = "NAME", num_args = 1..)]
+    scene: Vec<String>,
+    /// Seconds of each run at most, 1 to 1000
+    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    seconds: u32,
+    /// File of the page [default: report/peers.html]
+    #[arg(long, value_name = "PATH")]
+    html: Option<PathBuf>,
+    /// Where the tables go as Markdown, for the book
+    #[arg(long, value_name = "FILE")]
+    markdown: Option<PathBuf>,
+    /// Print JSON, and write a page only with --html
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl Peers {
+    /// Runs the comparison and shows it.
+    ///
+    /// # Errors
+    /// No such scene; a build or a run that failed; a page that cannot be written.
+    pub fn execute(&self) -> Result<(), Failure> {
+        if let Some(unknown) = self.scene.iter().find(|name| scenes().all(|scene| scene != *name)) {
+            let known: Vec<String> = scenes().map(|scene| format!("`{scene}`")).collect();
+            return Err(Failure::usage(format!("there is no scene `{unknown}`; there are {}", known.join(", "))));
+        }
+        let file = Destination::page_unless(self.json, self.html.as_deref(), "peers");
+        let markdown = self.markdown.as_ref().map(|path| Destination::chosen("tables", path));
+        check(&[], file.iter().chain(&markdown))?;
+        ready(&Need::to_run(BOARDS))?;
+        let wanted: Vec<&str> =
+            scenes().filter(|scene| self.scene.is_empty() || self.scene.iter().any(|name| name == scene)).collect();
+        let bar = Progress::of(4 + wanted.len() as u64);
+        let failed = |error: Box<dyn std::error::Error>| Failure::failed(error.to_string());
+        bar.says("building the observers for the host");
+        let replay = Replay::build().map_err(failed)?;
+        bar.step();
+        let images = Images::build(&|line| bar.says(line)).map_err(failed)?;
+        bar.step();
+        let mut comparison = Comparison { measured: Stamp::now().to_string(), ..Comparison::default() };
+        for scene in wanted {
+            let says = |text: &str| bar.says(text);
+            let compared = SceneComparison::run(scene, self.seconds.into(), &replay, &images, &says).map_err(failed)?;
+            comparison.scenes.push(compared);
+            bar.step();
+        }
+        let says = |text: &str| bar.says(text);
+        comparison.governors = governors(&replay, &images, &says).map_err(failed)?;
+        bar.step();
+        comparison.solvers = solvers(&replay, &images, &says).map_err(failed)?;
+        bar.step();
+        drop(bar);
+        if self.json {
+            say_json(&comparison)?;
+        } else {
+            for scene in &comparison.scenes {
+                say(format_args!("{}\n{}", scene.scene, scene.table()));
+            }
+            for (opening, table) in beside_observers(&comparison) {
+                say(format_args!("{}\n{table}", opening.lines().next().unwrap_or_default().trim_start_matches("## ")));
+            }
+        }
+        if let Some(markdown) = markdown {
+            markdown.write_and_say(&peers_markdown(&comparison), self.json)?;
+        }
+        file.map_or(Ok(()), |file| file.write_and_say(&peers_page(&comparison), self.json))
+    }
+}

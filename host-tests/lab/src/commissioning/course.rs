@@ -1,0 +1,164 @@
+//! A commissioning from start to end: plant, sensors and test in lock-step.
+
+use std::io;
+
+use driveline_firmware::scene::{Input, Output};
+use driveline_firmware::scenes::commission::panel;
+
+use super::machine::Case;
+use driveline_closed_loop::sensors::Encoder;
+use driveline_closed_loop::ticks::Ticks;
+use driveline_solver::noise::Noise;
+
+/// A moment of a course.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Moment {
+    /// Time (s).
+    pub time: f64,
+    /// Stage, by its number.
+    pub stage: u32,
+    /// Torque of the motor (N m).
+    pub torque: f64,
+    /// Torque of the shaft (N m).
+    pub shaft: f64,
+    /// Speed of the motor (rad/s).
+    pub speed: f64,
+    /// Angle of the motor from the start (rad).
+    pub angle: f64,
+}
+
+/// A course that has ended.
+#[derive(Clone, Debug)]
+pub struct Course {
+    /// Its moments, one in a few milliseconds.
+    pub moments: Vec<Moment>,
+    /// Largest size of the shaft's torque (N m).
+    pub peak: f64,
+    /// The same in each stage.
+    pub peaks: [f64; 7],
+    /// Figures and standard deviations, where there is an answer.
+    pub figures: Option<[[f64; 2]; 14]>,
+    /// Gains that were designed for what was found.
+    pub gains: Option<[f64; 8]>,
+    /// Numbers of the reasons why there is none: of the test, of the gap.
+    pub reasons: [u32; 2],
+    /// Responses: upwards and downwards; frequency, real part, imaginary part, deviation.
+    pub responses: [Vec<[f64; 4]>; 2],
+    /// Ticks.
+    pub ticks: u64,
+    /// Instructions of the ticks: least, sum, most; zeros on the host.
+    pub instructions: [u64; 3],
+}
+
+/// Stage numbers that end a course.
+const DONE: u32 = 5;
+
+/// Longest course (s).
+const LONGEST: f64 = 3600.0;
+
+/// Noise of a seed: each has its own, where [`Noise`] tells odd ones apart alone.
+fn noise_of(seed: u64) -> Noise {
+    Noise::new(seed.wrapping_mul(2).wrapping_sub(1))
+}
+
+/// Runs a test on a plant. `seen` is given every tick's input and output.
+///
+/// # Errors
+/// What the link says.
+pub fn run(
+    case: &Case,
+    seed: u64,
+    drive: &mut impl Ticks,
+    mut seen: impl FnMut(u64, u32, &Input, &Output),
+) -> io::Result<Course> {
+    let mut plant = case.plant.clone();
+    let encoder = Encoder::new(case.counts);
+    let mut noise = noise_of(seed);
+    let period = case.settings.rate.period().unwrap_or(1.0e-4);
+    let start = plant.motor_angle();
+    let mut course = Course {
+        moments: Vec::new(),
+        peak: 0.0,
+        peaks: [0.0; 7],
+        figures: None,
+        gains: None,
+        reasons: [0; 2],
+        responses: [Vec::new(), Vec::new()],
+        ticks: 0,
+        instructions: [u64::MAX, 0, 0],
+    };
+    let mut stage = 0;
+    let read = |plant: &driveline_solver::plant::Plant| {
+        let angle = plant.motor_angle() - start;
+        let [amplitude, phase] = case.eccentricity;
+        encoder.read(angle + amplitude * (angle - phase).cos())
+    };
+    while stage < DONE && (course.ticks as f64) < LONGEST / period {
+        let input = Input { angle: read(&plant), asked: [panel::STAGE, 0], flags: Input::RELEASED, ..Input::default() };
+        let output = drive.tick(&input)?;
+        stage = output.answer;
+        seen(course.ticks, stage, &input, &output);
+        let torque = f64::from(f32::from_bits(output.torque)) + case.torque_noise * noise.normal();
+        let shaft = plant.shaft_torque(case.shaft);
+        course.peak = course.peak.max(shaft.abs());
+        if let Some(peak) = course.peaks.get_mut(stage as usize) {
+            *peak = peak.max(shaft.abs());
+        }
+        if course.ticks.is_multiple_of(64) {
+            course.moments.push(Moment {
+                time: course.ticks as f64 * period,
+                stage,
+                torque,
+                shaft,
+                speed: plant.motor_speed(),
+                angle: plant.motor_angle() - start,
+            });
+        }
+        let [least, sum, most] = course.instructions;
+        let count = u64::from(output.instructions);
+        course.instructions = [least.min(count), sum + count, most.max(count)];
+        plant.advance(torque, period);
+        plant.clear_events();
+        course.ticks += 1;
+    }
+    // The result, requested word by word while the motor stands.
+    let mut ask = |key: u32, value: u32| -> io::Result<u32> {
+        let input = Input { angle: read(&plant), asked: [key, value], flags: Input::RELEASED, ..Input::default() };
+        Ok(drive.tick(&input)?.answer)
+    };
+    let number = |word: u32| if word == panel::NONE { f64::NAN } else { f64::from(f32::from_bits(word)) };
+    course.reasons = [ask(panel::REASON, 0)?, ask(panel::REASON, 1)?];
+    if stage == DONE {
+        let mut figures = [[0.0; 2]; 14];
+        for (place, figure) in figures.iter_mut().enumerate() {
+            let place = place as u32;
+            *figure = [number(ask(panel::FIGURE, place)?), number(ask(panel::DEVIATION, place)?)];
+        }
+        course.figures = Some(figures);
+        let mut gains = [0.0; 8];
+        for (place, gain) in gains.iter_mut().enumerate() {
+            *gain = number(ask(panel::GAIN, place as u32)?);
+        }
+        course.gains = gains.iter().all(|gain| gain.is_finite()).then_some(gains);
+    }
+    for (way, responses) in course.responses.iter_mut().enumerate() {
+        for line in 0..driveline_firmware::scenes::commission::LINES as u32 {
+            let mut part = |part: u32| ask(panel::RESPONSE, line * 8 + way as u32 * 4 + part).map(number);
+            responses.push([part(0)?, part(1)?, part(2)?, part(3)?]);
+        }
+    }
+    Ok(course)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::noise_of;
+
+    #[test]
+    fn every_seed_has_its_own_noise() {
+        let mut first: Vec<u64> = (0..1_000).map(|seed| noise_of(seed).normal().to_bits()).collect();
+        first.sort_unstable();
+        first.dedup();
+        assert_eq!(first.len(), 1_000);
+    }
+}

@@ -1,0 +1,222 @@
+//! The machines as they truly are.
+//!
+//! Referred to the motor here once more from the same figures as the scenes, but by own arithmetic [Huang 1987 ch. 1,
+//! Wang 1989 §1-3].
+
+use core::f64::consts::PI;
+
+use driveline::commissioning::TestSettings;
+use driveline::configure::Machine as _;
+use driveline::design::{Encoder, Rate};
+use driveline_firmware::scenes::blooming_mill::BloomingMill;
+use driveline_firmware::scenes::commission::{HELD, HOIST, MILL, SPINDLE};
+use driveline_firmware::scenes::hoist::Hoist;
+use driveline_firmware::scenes::spindle::{self, Spindle};
+
+use super::truth::Truth;
+use cargo_driveline::machine_file::MachineFile;
+use driveline_solver::plant::{Chain, Plant, PlantError, Shaft, Start};
+
+/// A machine to be commissioned.
+#[derive(Clone)]
+pub struct Case {
+    /// Its name.
+    pub name: String,
+    /// Its number among the scene's machines.
+    pub number: u32,
+    /// Description, in a sentence.
+    pub summary: String,
+    /// Whether its test is so short that QEMU takes less than a minute for it.
+    pub brief: bool,
+    /// The plant at the start.
+    pub plant: Plant,
+    /// Data of the test.
+    pub settings: TestSettings,
+    /// Counts of the encoder on a turn.
+    pub counts: u32,
+    /// Eccentricity of the encoder: amplitude and phase (rad).
+    pub eccentricity: [f64; 2],
+    /// Standard deviation of the motor's torque from its command, white, in every tick (N m).
+    pub torque_noise: f64,
+    /// Rated torque (N m).
+    pub rated_torque: f64,
+    /// Which shaft's torque must stay below half of rated.
+    pub shaft: usize,
+    /// Values to identify.
+    pub truth: Truth,
+}
+
+/// The machines.
+///
+/// # Errors
+/// A figure of a plant that is out of range, which only a changed scene can bring.
+pub fn cases() -> Result<Vec<Case>, PlantError> {
+    Ok(vec![crane()?, mill()?, tool()?])
+}
+
+/// The hoist with a quarter of its load. The rope's torque is behind the gear: its loss is dry friction to the motor.
+fn crane() -> Result<Case, PlantError> {
+    let travel = 0.8 / (2.0 * 2.0 * 31.5);
+    let square: f64 = travel * travel;
+    let (rope, damping, mass) = (2.9e6 * square, 3.6e3 * square, 3_000.0 * square);
+    let (shaft, efficiency) = (5.0e4, 0.94);
+    let chain = Chain::motor(0.62)
+        .shaft(Shaft::elastic(shaft).damping(2.0), 0.08)
+        .efficiency(efficiency)
+        .shaft(Shaft::rope(rope).damping(damping), mass)
+        .load(HELD)
+        .start(Start::Given { twists: vec![HELD / shaft, HELD / rope], speeds: vec![0.0; 3] });
+    Ok(Case {
+        name: "hoist".into(),
+        number: 0,
+        summary: "A 12 t crane hoist with a test load of 3 t.".into(),
+        brief: true,
+        plant: chain.build()?,
+        settings: HOIST,
+        counts: 8192,
+        eccentricity: [1.5e-3, 0.7],
+        torque_noise: 0.01 * Hoist::<10_000>::RATING.torque,
+        rated_torque: Hoist::<10_000>::RATING.torque,
+        shaft: 1,
+        truth: Truth::of(&[0.62, 0.08, mass], &[shaft, rope], &[2.0, damping])
+            .friction(0.5 * HELD * (1.0 / efficiency - efficiency), 0.0)
+            .weight(0.5 * HELD * (1.0 / efficiency + efficiency))
+            .eccentricity([1.5e-3, 0.7]),
+    })
+}
+
+/// The blooming mill without a bar.
+fn mill() -> Result<Case, PlantError> {
+    let friction = 0.05 * BloomingMill::RATING.torque;
+    let chain = Chain::motor(1.1e5)
+        .shaft(Shaft::elastic(1.2e9).damping(3.0e5), 1.0e4)
+        .shaft(Shaft::elastic(2.2e8).damping(1.0e5).gap(0.010), 2.2e4)
+        .coulomb(friction)
+        .start(Start::Rest);
+    Ok(Case {
+        name: "mill".into(),
+        number: 1,
+        summary: "A reversing blooming mill with a gap of 10 mrad in its spindles, rolling nothing.".into(),
+        brief: false,
+        plant: chain.build()?,
+        settings: MILL,
+        counts: 32_768,
+        eccentricity: [0.4e-3, -2.0],
+        torque_noise: 0.01 * BloomingMill::RATING.torque,
+        rated_torque: BloomingMill::RATING.torque,
+        shaft: 1,
+        truth: Truth::of(&[1.1e5, 1.0e4, 2.2e4], &[1.2e9, 2.2e8], &[3.0e5, 1.0e5])
+            .friction(friction, 0.0)
+            .gap(0.010)
+            .eccentricity([0.4e-3, -2.0]),
+    })
+}
+
+/// The spindle in the air, with a little drag in its bearings.
+fn tool() -> Result<Case, PlantError> {
+    // As the scene's shaft: 46 mm on 360 mm, a taper to 60 mm on 120 mm, bored by 22 mm, by Simpson's rule [Wang 1989
+    // §1-3].
+    let bore = 0.022_f64.powi(4);
+    let taper: f64 = (0..=1000)
+        .map(|j| {
+            let d = 0.046 + (0.060 - 0.046) * f64::from(j) / 1000.0;
+            let weight = if j == 0 || j == 1000 { 1.0 } else { 2.0 + 2.0 * f64::from(j % 2) };
+            weight / (d.powi(4) - bore)
+        })
+        .sum();
+    let stiffness = 79.3e9 * PI / 32.0 / (0.360 / (0.046_f64.powi(4) - bore) + taper * 0.120 / 3000.0);
+    let drag = 0.002;
+    let chain =
+        Chain::motor(0.012).viscous(drag).shaft(Shaft::elastic(stiffness).damping(0.3), 0.004).start(Start::Rest);
+    Ok(Case {
+        name: "spindle".into(),
+        number: 2,
+        summary: "A machine tool's spindle with a resonance of 800 Hz, in the air.".into(),
+        brief: true,
+        plant: chain.build()?,
+        settings: SPINDLE,
+        counts: spindle::COUNTS,
+        eccentricity: [0.1e-3, 2.2],
+        torque_noise: 0.01 * Spindle::RATING.torque,
+        rated_torque: Spindle::RATING.torque,
+        shaft: 0,
+        truth: Truth::of(&[0.012, 0.004], &[stiffness], &[0.3]).friction(0.0, drag).eccentricity([0.1e-3, 2.2]),
+    })
+}
+
+/// The machine of a name.
+///
+/// # Errors
+/// A sentence: no such machine, or a plant that cannot be.
+pub fn named(name: &str) -> Result<Case, String> {
+    let cases = cases().map_err(|error| format!("the plant of a scene: {error}"))?;
+    let names: Vec<String> = cases.iter().map(|case| format!("`{}`", case.name)).collect();
+    let found = cases.into_iter().find(|case| case.name == name);
+    found.ok_or_else(|| format!("there is no machine `{name}` to be commissioned; there are {}", names.join(", ")))
+}
+
+/// How a machine from a file is tried.
+#[derive(Clone, Copy, Debug)]
+pub struct Trial {
+    /// Speed of the test, of the file's largest.
+    pub speed: f64,
+    /// Travel (rad).
+    pub travel: f64,
+    /// Dry friction at the far end, of the file's largest torque.
+    pub friction: f64,
+    /// Rated torque, of the file's largest.
+    pub rated: f64,
+    /// Where the resonance is looked for (Hz); else from a fifth of the antiresonance to two and a half times the
+    /// resonance.
+    pub band: Option<[f64; 2]>,
+}
+
+/// A machine from a file: its plant by its chain, without the losses of its gears. The test's data are the motor's own
+/// inertia, the weight and the band.
+///
+/// # Errors
+/// A sentence: a machine with fewer than two masses, or what the plant refuses.
+pub fn of_file(machine: &MachineFile, trial: Trial) -> Result<Case, String> {
+    let chain = &machine.chain;
+    let rated = trial.rated * machine.limits.torque;
+    let friction = trial.friction * machine.limits.torque;
+    let plant = machine.plant(friction).map_err(|error| format!("the plant of `{}`: {error}", machine.name))?;
+    let (Some((motor, _)), Some(_)) = (chain.masses().split_first(), chain.shafts().first()) else {
+        return Err(format!("`{}` has one mass: there is nothing to be found", machine.name));
+    };
+    let shafts = chain.shafts();
+    let [stiffness, damping]: [Vec<f64>; 2] =
+        [shafts.iter().map(|s| s.stiffness).collect(), shafts.iter().map(|s| s.damping).collect()];
+    let truth = Truth::of(chain.masses(), &stiffness, &damping)
+        .friction(friction, 0.0)
+        .weight(chain.gravity_torque())
+        .gap(shafts.iter().map(|shaft| shaft.gap).sum());
+    let rate = f64::from(machine.control.rate_hz);
+    let [resonance, antiresonance] = [truth.figures[3], truth.figures[4]].map(|w| w / core::f64::consts::TAU);
+    Ok(Case {
+        name: machine.slug(),
+        number: 0,
+        summary: format!("The machine `{}`, from a file.", machine.name),
+        brief: false,
+        plant,
+        settings: TestSettings {
+            rate: Rate::hz(machine.control.rate_hz),
+            encoder: Encoder::lines(machine.encoder.lines),
+            torque: 0.4 * rated,
+            shaft_torque: 0.5 * rated,
+            speed: trial.speed * machine.limits.speed,
+            travel: trial.travel,
+            held: chain.gravity_torque(),
+            inertia: *motor,
+            band: trial.band.unwrap_or([0.2 * antiresonance, (2.5 * resonance).min(0.1 * rate)]),
+            torque_accuracy: machine.disturbance.torque_accuracy,
+            delay: 0.0,
+        },
+        counts: 4 * machine.encoder.lines,
+        eccentricity: [0.0; 2],
+        torque_noise: machine.disturbance.torque_accuracy,
+        rated_torque: rated,
+        shaft: shafts.len() - 1,
+        truth,
+    })
+}

@@ -1,0 +1,85 @@
+//! The strip mill's full plant: four masses on three shafts, and strips that bite and leave.
+
+use driveline::configure::Machine as _;
+use driveline_firmware::scenes::strip_mill::{self, StripMill};
+
+use driveline_closed_loop::departure::Departure;
+use super::facts;
+use driveline_closed_loop::plant::Body;
+use driveline_closed_loop::scenario::{Action, Machine, Scenario};
+use driveline_closed_loop::sensors::Encoder;
+use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft};
+
+/// Rolling torque (N m).
+const ROLLING: f64 = 1.2e5;
+
+/// Time in which the strip fills the gap between the rolls (s): 50 mm of contact and a wedge of a head of 50 mm, at 2
+/// m/s.
+const BITE: f64 = 0.05;
+
+/// The rolls' node and the spindles' shaft.
+const ROLLS: usize = 3;
+const SPINDLES: usize = 2;
+
+fn spindles(plant: &Body) -> f64 {
+    plant.shaft_torque(SPINDLES)
+}
+
+/// The stand and its runs.
+///
+/// # Errors
+/// A figure of the plant that is out of range, which only a changed scene can bring.
+pub fn machine() -> Result<Machine, PlantError> {
+    departing(&Departure::NONE)
+}
+
+/// The stand as it is.
+///
+/// # Errors
+/// A figure of the plant that is out of range.
+pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
+    let stand = |program: LoadProgram| {
+        Chain::motor(3000.0 * by.motor_inertia)
+            .shaft(Shaft::elastic(6.0e7 * by.stiffness).damping(1.0e4), 300.0)
+            .shaft(Shaft::elastic(5.0e7 * by.stiffness).damping(1.0e4), 400.0)
+            .shaft(Shaft::elastic(6.0e6 * by.stiffness).damping(4.0e3), 2500.0 * by.load_inertia)
+            .coulomb(4.0e3)
+            .program(program)
+            .build()
+    };
+    let torque_noise = 0.01 * StripMill::RATING.torque;
+    Ok(Machine {
+        name: strip_mill::SCENE,
+        summary: "A strip mill's stand of 2.4 MW: strips bite and leave.",
+        facts: facts::of_design(&StripMill::OBSERVER, strip_mill::COUNTS, torque_noise),
+        notes: vec!["The shaft torque is the spindles', between pinion stand and rolls."],
+        chosen: ("semi-implicit", StripMill::RATE_HZ),
+        scenarios: vec![Scenario {
+            name: "two strips",
+            plant: stand(LoadProgram::table(&[
+                (4.0, 0.0),
+                (4.0 + BITE, ROLLING),
+                (6.0, ROLLING),
+                (6.0 + BITE, 0.0),
+                (7.0, 0.0),
+                (7.0 + BITE, 0.7 * ROLLING),
+            ]))?
+            .into(),
+            held: 0.0,
+            actions: vec![(0.1, Action::Release), (0.1, Action::Setpoint(StripMill::RATING.speed))],
+            duration: 9.0,
+            counted: true,
+            marks: vec![(0.1, "run-up"), (4.0, "bite"), (6.0, "out"), (7.0, "thinner strip")],
+            law: None,
+        }],
+        encoder: Encoder::new(strip_mill::COUNTS),
+        torque_noise,
+        load: ROLLS,
+        shaft_torque: spindles,
+        load_torque: |plant| plant.load_torque(ROLLS),
+        told_brake: None,
+        told_friction: 0.0,
+        rated_speed: StripMill::RATING.speed,
+        bases: StripMill::BASES,
+    })
+}

@@ -1,0 +1,18 @@
+//! The laboratory: the firmware's scenes in closed loop, balancing, generator sets, commissioning, backlash, sweeps,
+//! peers, the survey of all, and the check of everything. It is for who changes the code, and is not published.
+#![deny(unsafe_code)]
+
+pub mod backlash;
+pub mod balancing;
+pub mod campaign;
+pub mod candidates;
+pub mod cases;
+pub mod check;
+pub mod cli;
+pub mod commissioning;
+pub mod drivetrains;
+pub mod generator;
+pub mod peers;
+mod stamp;
+pub mod survey;
+pub mod sweep;

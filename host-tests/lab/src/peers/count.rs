@@ -1,0 +1,137 @@
+//! Cost of an observer in QEMU, over a stretch of a recording.
+
+use std::error::Error;
+
+use driveline_firmware::board::BOARDS;
+use driveline_firmware::scene::Input;
+use driveline_qemu::image::{Contents, Image, Program, build};
+use driveline_qemu::link::Link;
+use driveline_qemu::measure::Spread;
+use driveline_report::format::grouped;
+use serde::Serialize;
+
+use super::recording::{Tick, words};
+use driveline_closed_loop::units::Units;
+
+/// The cores.
+pub const CORES: [&str; 2] = ["m4f", "m3"];
+
+/// Cost of an observer on a core.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Cost {
+    /// The core.
+    pub core: &'static str,
+    /// Instructions of a step with its estimates, the middle.
+    pub median: u32,
+    /// The most.
+    pub worst: u32,
+    /// Bytes of code that the step reaches.
+    pub code: u64,
+    /// Bytes of stack.
+    pub stack: u32,
+    /// Bytes of state and gains.
+    pub state: u32,
+}
+
+/// The images, one a core.
+pub struct Images(Vec<Image>);
+
+impl Images {
+    /// Builds them for the M4F and the M3.
+    ///
+    /// # Errors
+    /// What the build says.
+    pub fn build(says: &dyn Fn(&str)) -> Result<Self, Box<dyn Error>> {
+        let boards = BOARDS.iter().filter(|board| ["m4f", "m3"].contains(&board.core));
+        let images = boards.map(|&board| build("peers/all", board, Program::Peers, |line| says(line.trim())));
+        Ok(Images(images.collect::<Result<_, _>>()?))
+    }
+
+    /// Cost of an observer on a core; none where there is no image of that core.
+    ///
+    /// # Errors
+    /// What the link says.
+    pub fn cost(
+        &self,
+        core: &'static str,
+        peer: [usize; 2],
+        corner: f32,
+        stretch: &[Tick],
+        units: &Units,
+    ) -> Result<Option<Cost>, Box<dyn Error>> {
+        let inputs: Vec<Input> =
+            stretch.iter().enumerate().map(|(index, tick)| words(tick, units, index == 0)).collect();
+        self.cost_of(core, peer, corner, &inputs)
+    }
+
+    /// The same over inputs, less what the frame costs.
+    ///
+    /// # Errors
+    /// As [`cost`](Self::cost).
+    pub fn net_cost(
+        &self,
+        core: &'static str,
+        [scene, peer]: [usize; 2],
+        value: f32,
+        inputs: &[Input],
+    ) -> Result<Option<Cost>, Box<dyn Error>> {
+        let nothing = self.cost_of(core, [scene, 0], value, inputs)?.map_or(0, |cost| cost.median);
+        let cost = self.cost_of(core, [scene, peer], value, inputs)?;
+        Ok(cost.map(|cost| Cost {
+            median: cost.median.saturating_sub(nothing),
+            worst: cost.worst.saturating_sub(nothing),
+            ..cost
+        }))
+    }
+
+    fn cost_of(
+        &self,
+        core: &'static str,
+        [scene, peer]: [usize; 2],
+        corner: f32,
+        inputs: &[Input],
+    ) -> Result<Option<Cost>, Box<dyn Error>> {
+        let Some(image) = self.0.iter().find(|image| image.board.core == core) else { return Ok(None) };
+        let mut link = Link::start(image)?;
+        let key = (scene << 8 | peer) as u32;
+        link.exchange(&Input { asked: [key, corner.to_bits()], ..Input::default() })?;
+        let mut instructions = Vec::with_capacity(inputs.len());
+        for input in inputs {
+            let output = link.exchange(input)?;
+            if input.flags & Input::RELEASED != 0 {
+                instructions.push(output.instructions);
+            }
+        }
+        let summary = link.finish()?;
+        let spread = Spread::of(instructions);
+        Ok(Some(Cost {
+            core,
+            median: spread.median,
+            worst: spread.max,
+            code: Contents::reached_from(&image.path, summary.function.into())?,
+            stack: summary.stack,
+            state: summary.state,
+        }))
+    }
+}
+
+/// Headings of the costs on both cores.
+pub fn cost_headings() -> impl Iterator<Item = String> {
+    CORES.into_iter().flat_map(|core| [core, "worst", "code", "stack", "state"]).map(str::to_owned)
+}
+
+/// Cells of the costs on both cores; empty where there is none.
+pub fn cost_cells(costs: &[Cost]) -> Vec<String> {
+    let cells = |core: &str| match costs.iter().find(|cost| cost.core == core) {
+        Some(cost) => [
+            i64::from(cost.median),
+            i64::from(cost.worst),
+            cost.code as i64,
+            i64::from(cost.stack),
+            i64::from(cost.state),
+        ]
+        .map(grouped),
+        None => Default::default(),
+    };
+    CORES.into_iter().flat_map(cells).collect()
+}

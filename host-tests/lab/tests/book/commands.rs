@@ -1,0 +1,100 @@
+//! The page of commands against `--help`.
+
+use std::collections::BTreeSet;
+use std::process::Command;
+
+use super::pages::{Page, all, root};
+
+/// What `cargo driveline COMMAND --help` prints.
+fn help(command: &[&str]) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_lab")).args(command).arg("--help").output().unwrap();
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// The commands that the help lists.
+fn commands() -> Vec<String> {
+    let help = help(&[]);
+    let (_, listed) = help.split_once("Commands:").unwrap();
+    let names = listed.lines().skip(1).take_while(|line| line.starts_with("  "));
+    names.filter_map(|line| line.split_whitespace().next()).filter(|name| *name != "help").map(str::to_owned).collect()
+}
+
+#[test]
+fn every_command_is_on_the_page_with_all_its_options() {
+    let page = Page::read("doc/commands.md");
+    let commands = commands();
+    assert!(commands.len() > 10, "{commands:?}");
+    let (mut wrong, mut found) = (Vec::new(), 0);
+    for command in &commands {
+        let Some(section) = page.sections.iter().find(|section| section.code == [command.as_str()]) else {
+            wrong.push(format!("`{command}` has no section"));
+            continue;
+        };
+        let told: BTreeSet<String> = section
+            .rows
+            .iter()
+            .filter_map(|row| row[0].trim_matches('`').split([' ', ',']).next())
+            .filter(|option| option.starts_with("--"))
+            .map(str::to_owned)
+            .collect();
+        let options: BTreeSet<String> = help(&[command])
+            .lines()
+            .map(str::trim_start)
+            .filter(|line| line.starts_with("--") || line.starts_with("-h"))
+            .filter_map(|line| line.split([' ', ',']).find(|word| word.starts_with("--")).map(str::to_owned))
+            .filter(|option| option != "--help")
+            .collect();
+        found += options.len();
+        wrong.extend(options.difference(&told).map(|option| format!("`{command} {option}` is missing")));
+        wrong.extend(told.difference(&options).map(|option| format!("`{command}` has no {option}")));
+    }
+    // fewer would mean that the help is laid out otherwise than it is read here
+    assert!(found > 40, "{found} options in the help");
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Every line of `cargo driveline` and `cargo lab` in the pages names a command that there is.
+#[test]
+fn every_command_line_names_a_command() {
+    let commands = commands();
+    for page in all() {
+        let lines = page.fences.iter().flat_map(|(_, text)| text.lines().map(str::to_owned)).chain(page.code);
+        for line in lines {
+            let after = |program| line.split_once(program).map(|(_, rest)| rest);
+            let Some(rest) = after("cargo driveline ").or_else(|| after("cargo lab ")) else { continue };
+            let Some(word) = rest.split_whitespace().next() else { continue };
+            // the runner of new projects is not listed
+            let known = word == "qemu" || commands.iter().any(|command| command == word) || word.starts_with("--");
+            let placeholder = word.chars().all(|c| c.is_ascii_uppercase());
+            assert!(known || placeholder, "{}: {line}", page.path.display());
+        }
+    }
+}
+
+/// What a page shows of a command's output, after a line that begins with `$`, is what the command prints.
+#[test]
+fn every_output_is_what_the_command_prints() {
+    let folder = tempfile::tempdir().unwrap();
+    std::os::unix::fs::symlink(root().join("host-tests"), folder.path().join("host-tests")).unwrap();
+    let mut shown = 0;
+    for page in all() {
+        for (_, text) in &page.fences {
+            let Some((line, output)) = text.split_once('\n') else { continue };
+            let Some(arguments) = line.strip_prefix("$ cargo driveline ").or(line.strip_prefix("$ cargo lab ")) else {
+                continue;
+            };
+            let run = Command::new(env!("CARGO_BIN_EXE_lab"))
+                .args(arguments.split_whitespace())
+                .current_dir(&folder)
+                .output()
+                .unwrap();
+            let printed = format!("{}{}", String::from_utf8_lossy(&run.stdout), String::from_utf8_lossy(&run.stderr));
+            for line in output.lines().filter(|line| *line != "...") {
+                let there = printed.lines().any(|real| real.trim_end() == line);
+                assert!(there, "{}: `{line}` is not printed by `{arguments}`:\n{printed}", page.path.display());
+            }
+            shown += 1;
+        }
+    }
+    assert!(shown > 4, "{shown} commands are run");
+}

@@ -1,0 +1,223 @@
+//! Instructions and bytes on the pages against `budgets.toml`, which `cargo lab check --only budgets` measures.
+
+use driveline_firmware::scenes::VARIANTS;
+use driveline_qemu::measure::budgets::{Budget, Budgets};
+
+use super::pages::{Page, root};
+
+/// The whole numbers in a cell or a sentence.
+fn numbers(text: &str) -> Vec<u64> {
+    text.split(|c: char| !c.is_ascii_digit()).filter_map(|digits| digits.parse().ok()).collect()
+}
+
+/// The rows under a heading.
+fn rows(page: &str, title: &str) -> Vec<Vec<String>> {
+    let page = Page::read(page);
+    let section = page.sections.iter().find(|section| section.title == title);
+    let rows = section.map(|section| section.rows.clone()).unwrap_or_default();
+    assert!(!rows.is_empty(), "no table under {title}");
+    rows
+}
+
+/// What the file has for a variant, or a function of the bench, on a core.
+fn budget(variant: &str, core: &str) -> Budget {
+    let budgets = Budgets::read(&root().join("budgets.toml")).unwrap();
+    budgets.of(variant, core).unwrap_or_else(|| panic!("no budget of {variant} on {core}"))
+}
+
+fn counted(variant: &str, core: &str) -> u64 {
+    budget(variant, core).instructions.unwrap()
+}
+
+fn longest(variant: &str, core: &str) -> u64 {
+    budget(variant, core).longest.unwrap()
+}
+
+fn stack(variant: &str, core: &str) -> u64 {
+    budget(variant, core).stack.unwrap()
+}
+
+/// Flash and RAM over the empty image.
+fn bytes(variant: &str, core: &str) -> [u64; 2] {
+    let [image, empty] = [variant, "empty/f32/none/10000"].map(|variant| budget(variant, core));
+    [image.flash.unwrap() - empty.flash.unwrap(), image.ram.unwrap() - empty.ram.unwrap()]
+}
+
+#[test]
+fn the_instructions_of_a_step_are_those_of_the_bench() {
+    for (observer, bench) in [
+        ("`RigidObserver`", "bench/step/rigid"),
+        ("`SemiImplicitObserver`", "bench/step/semi-implicit"),
+        ("`TwoMassObserver`", "bench/step/exact"),
+        ("`BacklashObserver`", "bench/step/backlash"),
+        ("`CrankObserver`", "bench/step/cranked"),
+    ] {
+        let rows = rows("README.md", "Which observer");
+        let row = rows.iter().find(|row| row[0] == observer).unwrap();
+        assert_eq!(numbers(&row[2]), ["m4f", "m3"].map(|core| counted(bench, core)), "{observer}");
+    }
+}
+
+/// What a gear adds to the longest path of a drive of two masses without a governor.
+#[test]
+fn the_instructions_of_a_gear_are_the_difference_of_two_drives() {
+    let geared = |number: &str, core: &str| {
+        let [with, without] = ["geared-observer", "observer"]
+            .map(|name| longest(&format!("composition/{number}/two-mass-{name}/10000"), core));
+        with - without
+    };
+    let expected = [geared("f32", "m4f"), geared("fixed", "m3")];
+    for (page, title, column) in [("README.md", "Which observer", 2), ("doc/parts.md", "Observers", 2)] {
+        let rows = rows(page, title);
+        let row = rows.iter().find(|row| row[0] == "`GearedObserver<_>`").unwrap();
+        assert_eq!(numbers(&row[column]), expected, "{page}");
+    }
+}
+
+#[test]
+fn the_cost_of_the_hoist_is_that_of_its_image_and_its_tick() {
+    let rows = rows("README.md", "Results");
+    for (row, (variant, core)) in
+        rows.iter().zip([("hoist/f32/reduced/10000", "m4f"), ("hoist/fixed/reduced/10000", "m3")])
+    {
+        let tick = "bench/drive/semi-implicit";
+        assert_eq!(numbers(&row[4]), [counted(tick, core), longest(tick, core)], "{row:?}");
+        let [flash, ram] = bytes(variant, core);
+        assert_eq!(
+            [&row[5], &row[6], &row[7]].map(|cell| numbers(cell)),
+            [[flash], [ram], [stack(variant, core)]],
+            "{row:?}"
+        );
+    }
+}
+
+#[test]
+fn the_cost_of_all_four_parts_is_that_of_their_images() {
+    let tick = ["f32", "fixed"].map(|number| format!("surface-grinder/{number}/tick/10000"));
+    let whole = "test-rig/f32/whole/10000".to_owned();
+    for (title, variants) in
+        [("surface-grinder", vec![(&tick[0], "m4f"), (&tick[1], "m3")]), ("test-rig", vec![(&whole, "m4f")])]
+    {
+        let rows = rows("doc/scenes.md", title);
+        for (column, (variant, core)) in (1..).zip(variants) {
+            let found: Vec<u64> = rows.iter().flat_map(|row| numbers(&row[column])).collect();
+            assert_eq!(found, [longest(variant, core), stack(variant, core), bytes(variant, core)[0]], "{variant}");
+        }
+    }
+}
+
+/// The count, the bound and its stack, and the gap in percent between the first two.
+#[test]
+fn the_gaps_are_those_between_counts_and_bounds() {
+    let images = [
+        "bench/drive/semi-implicit",
+        "bench/drive/exact",
+        "hoist/NUMBER/reduced/10000",
+        "blooming-mill/NUMBER/slack/10000",
+        "generator/NUMBER/diesel/2400",
+        "punch-press/NUMBER/mean/10000",
+    ];
+    let rows = rows("doc/worst-case.md", "Gap");
+    let both = images.iter().flat_map(|image| [("f32", "m4f"), ("fixed", "m3")].map(|of| (image, of)));
+    for (row, (image, (number, core))) in rows.iter().zip(both) {
+        let image = image.replace("NUMBER", number);
+        let (counted, longest) = (counted(&image, core), longest(&image, core));
+        let gap = (100.0 * (longest - counted) as f64 / longest as f64).round() as u64;
+        assert_eq!(
+            [&row[2], &row[3], &row[4]].map(|cell| numbers(cell)),
+            [[counted], [longest], [gap]],
+            "{image}: {row:?}"
+        );
+        let bound = numbers(&row[5]).last().copied();
+        assert!(bound.is_none_or(|bound| bound == stack(&image, core)), "{image}: {row:?}");
+    }
+    let functions = ["bench/step/exact", "bench/step/semi-implicit", "bench/step/backlash", "bench/phasor/1"];
+    assert_eq!(rows.len(), 2 * images.len() + functions.len());
+    for (row, function) in rows.iter().skip(2 * images.len()).zip(functions) {
+        let both = ["m4f", "m3"];
+        assert_eq!(numbers(&row[2]), both.map(|core| counted(function, core)), "{row:?}");
+        assert_eq!(numbers(&row[3]), both.map(|core| longest(function, core)), "{row:?}");
+    }
+}
+
+/// The table of a long run: its longest paths are of the commit that it was made on. Inputs are sought on images alone.
+#[test]
+fn no_worst_input_exceeds_its_longest_path() {
+    for row in rows("doc/worst-case.md", "Worst inputs") {
+        let is_image = VARIANTS.contains(&row[0].as_str());
+        assert!(is_image || row[0].starts_with("bench/"), "{row:?}");
+        for cell in row[1..].iter().filter(|cell| !cell.is_empty() && !cell.starts_with("no bound")) {
+            let (counts, gap) = cell.split_once(": ").unwrap();
+            let numbers = numbers(counts);
+            let (longest, worst) = (numbers[0], *numbers[1..].iter().max().unwrap());
+            assert!(worst <= longest && numbers.len() == 2 + usize::from(is_image), "{row:?}");
+            let expected = 100.0 * (1.0 - worst as f64 / longest as f64);
+            assert_eq!(gap, format!("{expected:.1} %"), "{row:?}");
+        }
+    }
+}
+
+#[test]
+fn the_price_of_a_static_is_that_of_the_bench() {
+    let rows = rows("doc/worst-case.md", "As it is called");
+    for (row, step) in rows.iter().zip(["semi-implicit", "exact"]) {
+        let both = |core| {
+            [format!("bench/drive/{step}"), format!("bench/drive/{step}/static")].map(|name| longest(&name, core))
+        };
+        assert_eq!([&row[1], &row[2]].map(|cell| numbers(cell)), [both("m4f"), both("m3")], "{row:?}");
+    }
+}
+
+#[test]
+fn the_price_of_the_rainflow_is_that_of_the_strip_mill() {
+    let text = std::fs::read_to_string(root().join("doc/parts.md")).unwrap();
+    let (_, after) = text.split_once("mill's tick the count takes").unwrap();
+    let sentence = after.split_once(", by").unwrap().0.replace("M4F", "").replace("`f32`", "").replace("M3", "");
+    let price = |number: &str, core| {
+        let of = |variant| longest(&format!("strip-mill/{number}/{variant}/10000"), core);
+        of("life") - of("semi-implicit")
+    };
+    assert_eq!(numbers(&sentence), [price("f32", "m4f"), price("fixed", "m4f"), price("fixed", "m3")]);
+}
+
+/// The page of peers outside its tables: the texts of the command and headings from the run, without a measured figure.
+#[test]
+fn the_prose_of_the_peers_is_that_of_the_command_and_quotes_no_result() {
+    let read = |path: &str| std::fs::read_to_string(root().join(path)).unwrap();
+    let page = read("doc/peers.md");
+    let is_prose = |line: &&str| !line.is_empty() && !line.starts_with('|');
+    let written: Vec<&str> = page.lines().filter(is_prose).collect();
+    let texts = ["opening", "governors", "solvers"].map(|name| read(&format!("host-tests/lab/src/peers/{name}.md")));
+    let is_heading = |line: &&str| *line == "## The fronts" || (line.starts_with("## ") && line.ends_with(" Hz"));
+    let is_of_the_run = |line: &&str| is_heading(line) || line.starts_with("Measured on ");
+    let rest: Vec<&str> = written.iter().copied().filter(|line| !is_of_the_run(line)).collect();
+    let expected: Vec<&str> = texts.iter().flat_map(|text| text.lines().filter(is_prose)).collect();
+    assert_eq!(rest, expected);
+    // a share with decimals is a result: what is stated beforehand is whole
+    for line in rest {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let quoted = words.windows(2).find(|pair| pair[1].starts_with('%') && pair[0].contains('.'));
+        assert!(quoted.is_none(), "{quoted:?} in `{line}`");
+    }
+}
+
+/// In the last run of the peers no other observer wins in any scene: where one does, the scene takes it or the
+/// library's gets better.
+#[test]
+fn no_peer_wins_in_the_last_run() {
+    let page = std::fs::read_to_string(root().join("doc/peers.md")).unwrap();
+    let (_, fronts) = page.split_once("## The fronts").unwrap();
+    let rows: Vec<Vec<&str>> = fronts
+        .lines()
+        .skip_while(|line| !line.starts_with('|'))
+        .take_while(|line| line.starts_with('|'))
+        .map(|line| line.split('|').map(str::trim).collect())
+        .collect();
+    let [heading, _, scenes @ ..] = &rows[..] else { panic!("a table of scenes") };
+    let columns: Vec<usize> = (0..heading.len()).filter(|&at| heading[at].ends_with("others that win")).collect();
+    // on the scenes' own runs and on drawn ones, on two cores
+    assert!(columns.len() == 2 && scenes.len() == 2 * 14, "{heading:?}");
+    for row in scenes {
+        assert!(columns.iter().all(|&at| row[at] == "none"), "{row:?}");
+    }
+}

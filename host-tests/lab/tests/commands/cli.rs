@@ -1,0 +1,514 @@
+//! The command line as a user meets it: results, faults, exit codes, JSON.
+
+use std::process::{Command, Output, Stdio};
+
+fn driveline(arguments: &[&str]) -> Output {
+    let folder = env!("CARGO_TARGET_TMPDIR");
+    Command::new(env!("CARGO_BIN_EXE_lab")).args(arguments).current_dir(folder).output().unwrap()
+}
+
+fn out(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn err(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+fn json(text: &str) -> serde_json::Value {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+const HOIST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../command/machines/hoist.toml");
+
+#[test]
+fn every_command_explains_itself_with_examples() {
+    for command in [
+        "run",
+        "report",
+        "modes",
+        "design",
+        "rotor",
+        "balancing",
+        "genset",
+        "backlash",
+        "campaign",
+        "simulate",
+        "cosim",
+        "watch",
+        "check",
+        "setup",
+        "sizes",
+        "commissioning",
+        "identify",
+        "replay",
+    ] {
+        let output = driveline(&[command, "--help"]);
+        assert!(output.status.success());
+        let help = out(&output);
+        assert!(help.contains("Examples:") && help.contains("--json") && help.contains("Usage: cargo lab"), "{help}");
+    }
+}
+
+#[test]
+fn modes_prints_frequencies_and_writes_a_page() {
+    let page = format!("{}/hoist-modes.html", env!("CARGO_TARGET_TMPDIR"));
+    let output = driveline(&["modes", HOIST, "--html", &page]);
+    assert!(output.status.success(), "{}", err(&output));
+    assert!(err(&output).is_empty());
+    let words =
+        ["Frequencies and shapes", "brake drum", "Sensitivity to each part", "same resonance and antiresonance"];
+    for word in words {
+        assert!(out(&output).contains(word), "{word}");
+    }
+    let html = std::fs::read_to_string(page).unwrap();
+    assert!(html.starts_with("<!doctype html>") && html.contains("<svg") && !html.contains("NaN"));
+}
+
+#[test]
+fn modes_as_json_are_those_of_the_closed_form() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("pair.toml");
+    let text = std::fs::read_to_string(HOIST).unwrap();
+    let settings = &text[text.find("[encoder]").unwrap()..];
+    let elements = "name = \"pair\"\n[[element]]\nkind = \"motor\"\ninertia = 2.0\n[[element]]\nkind = \"shaft\"\n\
+                    stiffness = 600.0\n[[element]]\nkind = \"rotor\"\ninertia = 3.0\n";
+    std::fs::write(&file, format!("{elements}{settings}")).unwrap();
+    let output = driveline(&["modes", file.to_str().unwrap(), "--json"]);
+    let modes = json(&out(&output));
+    // omega^2 = k (J1 + J2)/(J1 J2) = 500 and, with the motor locked, k/J2 = 200 [Huang 1987 part 2].
+    let frequency = modes["resonances"][0]["frequency"].as_f64().unwrap();
+    assert!((frequency / 500f64.sqrt() - 1.0).abs() < 1e-14);
+    assert!((modes["antiresonances"][0].as_f64().unwrap() / 200f64.sqrt() - 1.0).abs() < 1e-14);
+    // Momentum: J1 a1 + J2 a2 = 0.
+    let shape = [0, 1].map(|mass| modes["resonances"][0]["shape"][mass].as_f64().unwrap());
+    assert!((2.0 * shape[0] + 3.0 * shape[1]).abs() < 1e-14);
+    assert!(modes["sensitivity"][0]["resonance"].is_null());
+}
+
+#[test]
+fn a_rigid_machine_has_no_vibrations_but_a_design() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("rigid.toml");
+    let text = std::fs::read_to_string(HOIST).unwrap();
+    let settings = &text[text.find("[encoder]").unwrap()..];
+    std::fs::write(&file, format!("name = \"7 rigid\"\n[[element]]\nkind = \"motor\"\ninertia = 2.0\n{settings}"))
+        .unwrap();
+    let path = file.to_str().unwrap();
+    assert!(driveline(&["modes", path, "--json"]).status.success());
+    assert!(driveline(&["modes", path]).status.success());
+    let plan = json(&out(&driveline(&["design", path, "--json"])));
+    assert_eq!(plan["observer"], "rigid");
+    let rust = out(&driveline(&["design", path, "--emit", "rust"]));
+    assert!(rust.contains("pub const MACHINE_7_RIGID_MODEL: Rigid"), "{rust}");
+}
+
+#[test]
+fn a_design_is_printed_as_text_json_and_rust() {
+    let text = out(&driveline(&["design", HOIST]));
+    for word in ["gain per rad", "predicted standard deviation", "poles:", "margins:", "step:"] {
+        assert!(text.contains(word), "{word} in {text}");
+    }
+    let plan = json(&out(&driveline(&["design", HOIST, "--json"])));
+    assert_eq!(plan["states"].as_array().unwrap().len(), 5);
+    assert!(plan["spectral_radius"].as_f64().unwrap() < 1.0);
+    let rust = out(&driveline(&["design", HOIST, "--emit", "rust"]));
+    assert!(rust.contains("pub const HOIST: Chain = Chain::motor(Inertia(0.62))"), "{rust}");
+    assert!(!rust.contains("Not among these"), "{rust}");
+}
+
+/// What the constants leave out of a file is said beneath them.
+#[test]
+fn constants_without_tolerances_and_actuator_say_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("own.toml");
+    let hoist = std::fs::read_to_string(HOIST).unwrap();
+    assert!(!hoist.contains("[tolerance]") && !hoist.contains("[actuator]"));
+    std::fs::write(&file, format!("{hoist}\n[tolerance]\nstiffness = 0.1\n[actuator]\ndelay = 1e-4\n")).unwrap();
+    let rust = out(&driveline(&["design", file.to_str().unwrap(), "--emit", "rust"]));
+    assert!(rust.contains("\n// Not among these: the actuator, the tolerances; `cargo driveline new`"), "{rust}");
+}
+
+/// Viscous damping stands in the table of the parts where there is some; what it keeps from vibrating is said.
+#[test]
+fn viscous_damping_is_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("viscous.toml");
+    let hoist = std::fs::read_to_string(HOIST).unwrap();
+    let shown = |viscous: &str| {
+        std::fs::write(&file, hoist.replace("inertia = 0.62", &format!("inertia = 0.62{viscous}"))).unwrap();
+        let page = folder.path().join("page.html");
+        let tables = out(&driveline(&["modes", file.to_str().unwrap(), "--html", page.to_str().unwrap()]));
+        tables + &std::fs::read_to_string(page).unwrap()
+    };
+    let (without, some, much) = (shown(""), shown("\nviscous = 0.375"), shown("\nviscous = 1e5"));
+    assert!(!without.contains("viscous") && !without.contains("decays without vibration"), "{without}");
+    assert!(some.contains("viscous N m s/rad") && some.contains("0.375"), "{some}");
+    assert!(!some.contains("decays without vibration") && much.contains("decays without vibration"), "{much}");
+}
+
+/// `design`, `campaign` and `new` select the same observer: here one mass would do, but its loop lacks phase. The
+/// sentences name keys of the file, not the library's constants.
+#[test]
+fn design_campaign_and_new_select_the_same_observer() {
+    let folder = tempfile::tempdir().unwrap();
+    let axis = concat!(env!("CARGO_MANIFEST_DIR"), "/../command/machines/axis.toml");
+    let plan = json(&out(&driveline(&["design", axis, "--json"])));
+    assert_eq!((&plan["need"]["observer"], &plan["predicted"]["observer"]), (&"rigid".into(), &"exact".into()));
+    let shown = out(&driveline(&["design", axis]));
+    assert!(shown.contains("two masses by the exact step; one mass would do, but lacks margin"), "{shown}");
+    assert!(!shown.contains("ROBUSTNESS") && !shown.contains("SpeedLoopTuning"), "{shown}");
+    let project = folder.path().join("axis");
+    let written = json(&out(&driveline(&["new", project.to_str().unwrap(), "--machine", axis, "--json"])));
+    assert_eq!(written["observer"], "GearedObserver<TwoMassObserver<Number>>");
+    let mut campaign = Command::new(env!("CARGO_BIN_EXE_lab"));
+    let drawn =
+        campaign.args(["campaign", axis, "--draws", "2", "--json"]).current_dir(folder.path()).output().unwrap();
+    assert_eq!(json(&out(&drawn))["variant"], "feed-axis/two-mass", "{}", out(&drawn));
+}
+
+/// Nothing damps the ship's upper vibration, which the two masses leave out: no margins, a reason, and no constants.
+#[test]
+fn an_unstable_loop_is_said_and_not_emitted() {
+    let ship = concat!(env!("CARGO_MANIFEST_DIR"), "/../command/machines/ship.toml");
+    let designed = driveline(&["design", ship, "--json"]);
+    assert_eq!(designed.status.code(), Some(1), "{}", err(&designed));
+    let plan = json(&out(&designed));
+    assert!(plan["speed_loop"]["margins"].is_null());
+    assert!(plan["speed_loop"]["no_margins"].as_str().unwrap().contains("damping"), "{plan}");
+    assert!(plan["predicted"]["lack"].as_str().unwrap().contains("damping"), "{plan}");
+    // margins of the two masses would say that the loop is sound
+    assert!(plan["speed_loop"]["least_margins"].is_null() && plan["speed_loop"]["not_robust"].is_string(), "{plan}");
+    let designed = driveline(&["design", ship]);
+    assert!(designed.status.code() == Some(1) && err(&designed).contains("no margins"), "{}", err(&designed));
+    let shown = out(&designed);
+    assert!(shown.contains("margins: none: the speed loop") && !shown.contains("within tolerances"), "{shown}");
+    let emitted = driveline(&["design", ship, "--emit", "rust"]);
+    assert_eq!((emitted.status.code(), out(&emitted).as_str()), (Some(1), ""));
+    assert!(err(&emitted).contains("no constants are printed"), "{}", err(&emitted));
+    let hoist = out(&driveline(&["design", HOIST]));
+    assert!(hoist.contains("margins within tolerances") && !hoist.contains("none"), "{hoist}");
+}
+
+#[test]
+fn a_fault_in_a_file_ends_with_2_and_shows_the_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("bad.toml");
+    std::fs::write(&file, std::fs::read_to_string(HOIST).unwrap().replace("ratio = 31.5", "ratio = 0.0")).unwrap();
+    for command in ["modes", "design"] {
+        let output = driveline(&[command, file.to_str().unwrap()]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(out(&output).is_empty());
+        let shown = err(&output);
+        assert!(shown.starts_with("error: ") && shown.contains("`element[3].ratio`: found 0.0, expected"), "{shown}");
+        assert!(shown.contains("^^^"), "{shown}");
+    }
+    let output = driveline(&["modes", file.to_str().unwrap(), "--json"]);
+    assert_eq!(output.status.code(), Some(2));
+    let fault = json(&err(&output));
+    assert!(fault["error"].as_str().unwrap().contains("element[3].ratio"));
+    assert_eq!(fault["at"]["key"], "element[3].ratio");
+}
+
+#[test]
+fn a_machine_that_cannot_be_observed_is_refused_with_a_sentence() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("slow.toml");
+    // The shaft of 134 Hz is cut away by the reduction; a rope of 134 Hz is not, and 10 Hz cannot follow it.
+    let text = std::fs::read_to_string(HOIST).unwrap();
+    let text = text.replace("rate_hz = 10000", "rate_hz = 10").replace("stiffness = 2.9e6", "stiffness = 9.0e9");
+    std::fs::write(&file, text).unwrap();
+    let output = driveline(&["design", file.to_str().unwrap(), "--json"]);
+    assert_eq!(output.status.code(), Some(2), "{}", out(&output));
+    assert!(json(&err(&output))["error"].as_str().unwrap().contains("sample rate"), "{}", err(&output));
+}
+
+#[test]
+fn wrong_arguments_end_with_2() {
+    for arguments in [&["nothing"][..], &["modes"], &["modes", HOIST, "--loud"], &["design", HOIST, "--emit", "c"]] {
+        let output = driveline(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(!err(&output).is_empty() && out(&output).is_empty());
+    }
+    let output = driveline(&["modes", "--json", "--loud"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(json(&err(&output))["error"].as_str().unwrap().contains("--loud"));
+    // what the parser lists below its first line
+    let output = driveline(&["export", "c", "--json"]);
+    let error = json(&err(&output))["error"].as_str().unwrap().to_owned();
+    assert_eq!(error, "the following required arguments were not provided: --out <PATH>, --core <CORE>, <FILE>");
+}
+
+/// Who names a variant or a source that is not there is shown what there is, in the words that the option takes.
+#[test]
+fn a_wrong_name_is_answered_with_the_right_ones() {
+    for (arguments, there) in [
+        (&["run", "--variants", "nothing"][..], "fixed/m3/reduced/10000"),
+        (&["run", "balanced-fan", "--variants", "nothing"], "fixed/m3/two-mass/4000"),
+        (&["genset", "--variants", "nothing"], "f32/m4f/diesel/2400"),
+        (&["watch", "--qemu", "nothing"], "hoist/f32/reduced/10000"),
+        (&["watch", "--qemu", "hoist/f32/reduced/10000", "--core", "m7"], "m4f"),
+        (&["watch"], "--qemu VARIANT"),
+    ] {
+        let output = driveline(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(err(&output).contains(there), "{arguments:?}: {}", err(&output));
+    }
+}
+
+#[test]
+fn a_page_that_cannot_be_written_is_found_before_anything_runs() {
+    // A file stands where the folder should be.
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    std::fs::write(&file, "kept").unwrap();
+    let page = file.join("page.html");
+    let output = driveline(&["run", "--html", page.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err(&output).contains("file is not a folder") && !err(&output).contains("building"));
+    assert_eq!(std::fs::read_to_string(file).unwrap(), "kept");
+    // A folder in which nobody can make a file.
+    if cfg!(target_os = "linux") {
+        let output = driveline(&["run", "--html", "/proc/page.html"]);
+        assert_eq!(output.status.code(), Some(1));
+        assert!(err(&output).contains("page.html cannot be written") && !err(&output).contains("building"));
+    }
+}
+
+#[test]
+fn design_warns_of_a_machine_that_two_masses_do_not_stand_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("three.toml");
+    let text = std::fs::read_to_string(HOIST).unwrap();
+    let settings = &text[text.find("[encoder]").unwrap()..];
+    // A light motor before two heavy masses: ten elevenths of a blow to it go into the second mode.
+    let mass = |kind: &str, inertia: f64| format!("[[element]]\nkind = \"{kind}\"\ninertia = {inertia:?}\n");
+    let shaft = |stiffness: f64| format!("[[element]]\nkind = \"shaft\"\nstiffness = {stiffness:?}\n");
+    let (motor, first, second) = (mass("motor", 0.1), mass("rotor", 1.0), mass("rotor", 1.0));
+    let (stiff, soft) = (shaft(1e5), shaft(10.0));
+    std::fs::write(&file, format!("name = \"three\"\n{motor}{stiff}{first}{soft}{second}{settings}")).unwrap();
+    assert!(out(&driveline(&["design", file.to_str().unwrap()])).contains("warning: two masses are a poor model"));
+    assert!(!out(&driveline(&["design", HOIST])).contains("warning"));
+}
+
+#[test]
+fn design_warns_of_a_weight_that_the_motor_does_not_hold() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("weak.toml");
+    // the weight is 747 N m
+    let text = std::fs::read_to_string(HOIST).unwrap().replace("torque = 1350.0 ", "torque = 700.0 ");
+    std::fs::write(&file, text).unwrap();
+    let design = out(&driveline(&["design", file.to_str().unwrap()]));
+    assert!(design.contains("warning: the weight of 747 N m at the motor is not held by `limits.torque`, 700 N m"));
+}
+
+#[test]
+fn a_word_of_c_is_no_name_of_a_drive_in_c() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("drive");
+    let command = ["export", "c", HOIST, "--core", "host", "--out", out.to_str().unwrap(), "--name", "int"];
+    let output = driveline(&command);
+    assert_eq!(output.status.code(), Some(2), "{}", err(&output));
+    assert!(err(&output).contains("`int` is a word of C or C++"), "{}", err(&output));
+    assert!(!out.exists());
+}
+
+#[test]
+fn an_image_that_is_no_elf_is_refused_before_qemu_starts() {
+    let output = driveline(&["qemu", "mps2-an386", HOIST]);
+    assert_eq!(output.status.code(), Some(2), "{}", err(&output));
+    assert!(err(&output).contains("hoist.toml is no ELF file"), "{}", err(&output));
+}
+
+/// What builds firmware of the repository says that it needs a clone.
+#[test]
+fn outside_a_clone_the_firmware_is_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    for command in
+        [&["run"][..], &["report"], &["check"], &["sizes"], &["genset"], &["commissioning", "mill", "--qemu"]]
+    {
+        let mut lab = Command::new(env!("CARGO_BIN_EXE_lab"));
+        let output = lab.args(command).current_dir(folder.path()).env_remove("CARGO_TARGET_DIR").output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{command:?}");
+        assert!(err(&output).contains("needs a clone of driveline's repository"), "{command:?}: {}", err(&output));
+    }
+}
+
+/// The commands that read a file, each with one, and the option that names a result.
+const READERS: [(&str, &str, &str); 7] = [
+    ("modes", "machines/hoist.toml", "--html"),
+    ("rotor", "rotors/three_discs.toml", "--html"),
+    ("balancing", "rotors/fan-balance.toml", "--html"),
+    ("commissioning", "machines/axis.toml", "--html"),
+    ("simulate", "trains/gear-pair.toml", "--html"),
+    ("simulate", "trains/gear-pair.toml", "--csv"),
+    ("watch", "machines/hoist.toml", "--csv"),
+];
+
+/// By its name, a symbolic link, a hard link and another way to the same place.
+#[test]
+fn a_result_is_not_written_over_what_it_is_made_from() {
+    for (command, source, option) in READERS {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        let text = std::fs::read_to_string(format!("{}/../command/{source}", env!("CARGO_MANIFEST_DIR"))).unwrap();
+        std::fs::write(at("source.toml"), &text).unwrap();
+        std::os::unix::fs::symlink(at("source.toml"), at("symbolic")).unwrap();
+        std::fs::hard_link(at("source.toml"), at("hard")).unwrap();
+        std::fs::create_dir(at("sub")).unwrap();
+        for name in ["source.toml", "symbolic", "hard", "sub/../source.toml"] {
+            let [source, result] = [at("source.toml"), at(name)];
+            let arguments = [command, source.to_str().unwrap(), option, result.to_str().unwrap()];
+            let output = driveline(&arguments);
+            assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+            assert!(err(&output).contains("would overwrite its own input"), "{}", err(&output));
+            assert_eq!(std::fs::read_to_string(at("source.toml")).unwrap(), text, "{arguments:?}");
+        }
+    }
+}
+
+#[test]
+fn two_results_do_not_share_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let [file, sub] = ["both", "sub"].map(|name| folder.path().join(name));
+    std::fs::create_dir(&sub).unwrap();
+    let other = sub.join("../both");
+    let train = concat!(env!("CARGO_MANIFEST_DIR"), "/../command/trains/gear-pair.toml");
+    let output = driveline(&["simulate", train, "--csv", file.to_str().unwrap(), "--html", other.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err(&output).contains("would hold both the table and the page"), "{}", err(&output));
+    // nor with standard output
+    let to_file = std::fs::File::create(&file).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_lab"));
+    let output = command.args(["modes", HOIST, "--html"]).arg(&file).stdout(to_file).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err(&output).contains("is where standard output goes"), "{}", err(&output));
+}
+
+#[test]
+fn a_folder_is_not_made_for_a_typo() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("reprot/page.html");
+    let output = driveline(&["modes", HOIST, "--html", page.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err(&output).contains("reprot; make it, or name another"), "{}", err(&output));
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn a_figure_is_printed_before_its_page_fails() {
+    if !std::path::Path::new("/dev/full").exists() {
+        return;
+    }
+    let output = driveline(&["modes", HOIST, "--json", "--html", "/dev/full"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(json(&out(&output))["resonances"].is_array());
+    assert!(err(&output).contains("No space left"), "{}", err(&output));
+}
+
+#[test]
+fn a_number_below_zero_is_a_wrong_value_and_no_unknown_option() {
+    let output = driveline(&["backlash", "--seconds", "-1"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err(&output).contains("invalid value '-1' for '--seconds <SECONDS>'"), "{}", err(&output));
+}
+
+#[test]
+fn what_cannot_be_printed_is_shown_by_a_mark() {
+    let page = "--html=/no\u{1b}[2J/page";
+    for arguments in [&["modes", "no\u{1b}[2J.toml"][..], &["no\u{7}", "x"], &["modes", HOIST, page]] {
+        let output = driveline(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        let said = err(&output);
+        // of a word that it does not know the parser prints what can be printed
+        assert!(said.contains('\u{fffd}') || arguments[0] != "modes", "{said:?}");
+        assert!(!said.contains(|c: char| c.is_control() && c != '\n'), "{said:?}");
+    }
+}
+
+#[test]
+fn a_signal_ends_long_work_at_once() {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_lab"));
+    let mut child = command.args(["backlash", "--seconds", "1000", "--json"]).stdout(Stdio::null()).spawn().unwrap();
+    // until it has begun to catch signals: before, it ends by them as well
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    let killed = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
+    assert!(killed.success());
+    assert_eq!(std::os::unix::process::ExitStatusExt::signal(&child.wait().unwrap()), Some(15));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_standard_output_is_a_failure() {
+    for arguments in [&["design", HOIST][..], &["--help"], &["modes", "--help"]] {
+        let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
+        let status = Command::new(env!("CARGO_BIN_EXE_lab")).args(arguments).stdout(full).status().unwrap();
+        assert_eq!(status.code(), Some(1), "{arguments:?}");
+    }
+}
+
+/// A pipe gives its text once: nothing is read twice.
+#[test]
+fn a_machine_comes_through_a_pipe() {
+    const TILTING: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../command/trains/tilting.toml");
+    for (command, file) in [("modes", HOIST), ("modes", TILTING), ("design", HOIST), ("simulate", TILTING)] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_lab"))
+            .args([command, "/dev/stdin", "--json"])
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        std::io::Write::write_all(&mut child.stdin.take().unwrap(), &std::fs::read(file).unwrap()).unwrap();
+        let output = child.wait_with_output().unwrap();
+        assert!(output.status.success(), "{command} {file}: {}", err(&output));
+        assert!(json(&out(&output)).is_object(), "{command} {file}");
+    }
+}
+
+#[test]
+fn what_cannot_be_commissioned_is_said_before_anything_runs() {
+    let refused = |arguments: &[&str], code: i32, words: &[&str]| {
+        let output = driveline(arguments);
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {}", err(&output));
+        for word in words {
+            assert!(err(&output).contains(word), "{arguments:?}: {word} in {}", err(&output));
+        }
+    };
+    const SHIP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../command/machines/ship.toml");
+    const AXIS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../command/machines/axis.toml");
+    refused(&["commissioning", SHIP], 2, &["ship.toml:20:1: `branch[0]`", "expected a chain"]);
+    // The load that hangs takes more than half of a half of the largest torque.
+    // 1350/4 N m; the load of 12 t on two falls and a drum of 0.4 m: 12000 9.80665 0.4/(2 31.5) = 747 N m
+    let words = ["hoist.toml: the largest torque of the shaft, 338 N m with --rated 0.5", "747 N m", "a lighter load"];
+    refused(&["commissioning", HOIST], 2, &words);
+    // a fifth of the load: 149 N m are a half of 0.221 of 1350 N m
+    let text = std::fs::read_to_string(HOIST).unwrap().replace("mass = 12000.0", "mass = 2400.0");
+    let lighter = tempfile::tempdir().unwrap();
+    let lighter = (lighter.path().join("light.toml"), lighter);
+    std::fs::write(&lighter.0, text).unwrap();
+    let file = lighter.0.to_str().unwrap();
+    refused(&["commissioning", file, "--rated", "0.2"], 2, &["135 N m", "149 N m", "give --rated above 0.221"]);
+    refused(&["commissioning", AXIS, "--speed", "1e-9"], 2, &["axis.toml: the test's speed", "--speed 1e-9"]);
+    refused(&["commissioning", AXIS, "--speed", "1e300"], 2, &["--speed is a share of the largest: at most 1"]);
+    refused(&["commissioning", AXIS, "--rated", "1.5"], 2, &["--rated is a share of the largest: at most 1, not 1.5"]);
+    refused(&["commissioning", AXIS, "--friction", "2"], 2, &["--friction is a share of the largest: at most 1"]);
+    refused(&["commissioning", AXIS, "--friction", "nan"], 2, &["--friction must be zero or above"]);
+    refused(&["commissioning", "spindle", "--speed", "0.5"], 2, &["--speed is for a file `NAME.toml`"]);
+    let folder = env!("CARGO_TARGET_TMPDIR");
+    // Half an hour of the mill is not run for a page that cannot be written.
+    refused(&["commissioning", "mill", "--html", folder], 2, &["is a folder"]);
+    let output = driveline(&["commissioning", SHIP, "--json"]);
+    assert_eq!(json(&err(&output))["at"]["line"], 20);
+}
+
+#[test]
+fn a_scene_or_a_variant_that_is_not_there_is_refused() {
+    let output = driveline(&["run", "balanced-fan", "--variants", "nonsense"]);
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text.contains("no variant of `balanced-fan` contains `nonsense`"), "{text}");
+    let output = driveline(&["run", "turbine"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8(output.stderr).unwrap().contains("`flexible`"));
+}
