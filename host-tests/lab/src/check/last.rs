@@ -17,7 +17,7 @@ pub struct Page {
 
 const HEAD: &str = "# Long runs
 
-The last result of each long run. `cargo lab check --long --markdown doc/long-runs.md` has written this page; with
+The last result of each long run. `cargo lab check --long --markdown doc/makers/long-runs.md` has written this page; with
 `--only STEP` it replaces one row. [Checks](checks.md) has the steps. A `+` after the commit: the tree had changes.
 
 | step | content | date | commit | passed | failed | minutes | figures |

@@ -18,7 +18,7 @@ use driveline_qemu::clone::workspace;
 #[command(after_help = "Examples:
   cargo lab check
   cargo lab check --only budgets --json
-  cargo lab check --long --markdown doc/long-runs.md
+  cargo lab check --long --markdown doc/makers/long-runs.md
   cargo lab check --long --only power-cuts")]
 pub struct Check {
     /// Only this step

@@ -25,7 +25,7 @@ use driveline_qemu::setup::Need;
 #[command(after_help = "Examples:
   cargo lab peers
   cargo lab peers --scene hoist fan
-  cargo lab peers --markdown doc/peers.md")]
+  cargo lab peers --markdown doc/makers/peers.md")]
 pub struct Peers {
     /// Only these scenes
     #[arg(long, value_name = "NAME", num_args = 1..)]

@@ -25,7 +25,7 @@ use driveline_qemu::setup::Need;
   cargo lab report
   cargo lab report --scene hoist spindle
   cargo lab report --quick --html report/quick.html
-  cargo lab report --markdown doc/results.md
+  cargo lab report --markdown doc/makers/results.md
   cargo lab report --json > report.json")]
 pub struct Report {
     /// Only these scenes, and no cases

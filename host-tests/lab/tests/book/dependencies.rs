@@ -65,7 +65,7 @@ fn the_page_lists_every_dependency_with_its_licence() {
             }
         }
     }
-    let page = Page::read("doc/dependencies.md");
+    let page = Page::read("doc/makers/dependencies.md");
     let rows = page.sections.iter().flat_map(|section| &section.rows).filter(|row| row[0].starts_with('`'));
     let listed: BTreeMap<String, String> =
         rows.map(|row| (row[0].trim_matches('`').to_owned(), row[3].clone())).collect();

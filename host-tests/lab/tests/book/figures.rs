@@ -98,7 +98,7 @@ fn the_cost_of_all_four_parts_is_that_of_their_images() {
     for (title, variants) in
         [("surface-grinder", vec![(&tick[0], "m4f"), (&tick[1], "m3")]), ("test-rig", vec![(&whole, "m4f")])]
     {
-        let rows = rows("doc/scenes.md", title);
+        let rows = rows("doc/makers/scenes.md", title);
         for (column, (variant, core)) in (1..).zip(variants) {
             let found: Vec<u64> = rows.iter().flat_map(|row| numbers(&row[column])).collect();
             assert_eq!(found, [longest(variant, core), stack(variant, core), bytes(variant, core)[0]], "{variant}");
@@ -117,7 +117,7 @@ fn the_gaps_are_those_between_counts_and_bounds() {
         "generator/NUMBER/diesel/2400",
         "punch-press/NUMBER/mean/10000",
     ];
-    let rows = rows("doc/worst-case.md", "Gap");
+    let rows = rows("doc/makers/worst-case.md", "Gap");
     let both = images.iter().flat_map(|image| [("f32", "m4f"), ("fixed", "m3")].map(|of| (image, of)));
     for (row, (image, (number, core))) in rows.iter().zip(both) {
         let image = image.replace("NUMBER", number);
@@ -143,7 +143,7 @@ fn the_gaps_are_those_between_counts_and_bounds() {
 /// The table of a long run: its longest paths are of the commit that it was made on. Inputs are sought on images alone.
 #[test]
 fn no_worst_input_exceeds_its_longest_path() {
-    for row in rows("doc/worst-case.md", "Worst inputs") {
+    for row in rows("doc/makers/worst-case.md", "Worst inputs") {
         let is_image = VARIANTS.contains(&row[0].as_str());
         assert!(is_image || row[0].starts_with("bench/"), "{row:?}");
         for cell in row[1..].iter().filter(|cell| !cell.is_empty() && !cell.starts_with("no bound")) {
@@ -159,7 +159,7 @@ fn no_worst_input_exceeds_its_longest_path() {
 
 #[test]
 fn the_price_of_a_static_is_that_of_the_bench() {
-    let rows = rows("doc/worst-case.md", "As it is called");
+    let rows = rows("doc/makers/worst-case.md", "As it is called");
     for (row, step) in rows.iter().zip(["semi-implicit", "exact"]) {
         let both = |core| {
             [format!("bench/drive/{step}"), format!("bench/drive/{step}/static")].map(|name| longest(&name, core))
@@ -184,7 +184,7 @@ fn the_price_of_the_rainflow_is_that_of_the_strip_mill() {
 #[test]
 fn the_prose_of_the_peers_is_that_of_the_command_and_quotes_no_result() {
     let read = |path: &str| std::fs::read_to_string(root().join(path)).unwrap();
-    let page = read("doc/peers.md");
+    let page = read("doc/makers/peers.md");
     let is_prose = |line: &&str| !line.is_empty() && !line.starts_with('|');
     let written: Vec<&str> = page.lines().filter(is_prose).collect();
     let texts = ["opening", "governors", "solvers"].map(|name| read(&format!("host-tests/lab/src/peers/{name}.md")));
@@ -205,7 +205,7 @@ fn the_prose_of_the_peers_is_that_of_the_command_and_quotes_no_result() {
 /// library's gets better.
 #[test]
 fn no_peer_wins_in_the_last_run() {
-    let page = std::fs::read_to_string(root().join("doc/peers.md")).unwrap();
+    let page = std::fs::read_to_string(root().join("doc/makers/peers.md")).unwrap();
     let (_, fronts) = page.split_once("## The fronts").unwrap();
     let rows: Vec<Vec<&str>> = fronts
         .lines()

@@ -10,7 +10,7 @@ use super::section::{Cell, Section, Shown};
 pub(super) fn page(summary: &str, facts: &[Fact], sections: &[Section]) -> String {
     let mut text = format!("# Results\n\n{summary}\n\n");
     text.push_str(
-        "`cargo lab report --markdown doc/results.md` has written this page. The page `report/report.html` of \
+        "`cargo lab report --markdown doc/makers/results.md` has written this page. The page `report/report.html` of \
          the same run has the plots. [Limits](limits.md) has the limits of the figures.\n\n",
     );
     let headings = ["fact".to_owned(), "value".to_owned()];
