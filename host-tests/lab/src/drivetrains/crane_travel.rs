@@ -5,8 +5,8 @@ use driveline::configure::Machine as _;
 use driveline_firmware::scene::no_load::panel;
 use driveline_firmware::scenes::crane_travel::{self as scene, CraneTravel};
 
-use driveline_closed_loop::departure::Departure;
 use super::facts;
+use driveline_closed_loop::departure::Departure;
 use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::scenario::{Action, Machine, Scenario};
 use driveline_closed_loop::sensors::Encoder;

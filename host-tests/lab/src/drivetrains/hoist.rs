@@ -6,8 +6,8 @@
 use driveline::configure::Machine as _;
 use driveline_firmware::scenes::hoist::{Hoist, panel};
 
-use driveline_closed_loop::departure::Departure;
 use super::facts;
+use driveline_closed_loop::departure::Departure;
 use driveline_closed_loop::scenario::{Action, Machine, Scenario};
 use driveline_closed_loop::sensors::Encoder;
 use driveline_solver::plant::{Chain, LoadProgram, Plant, PlantError, Shaft, Start};

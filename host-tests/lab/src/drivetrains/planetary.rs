@@ -5,8 +5,8 @@ use core::f64::consts::PI;
 use driveline::configure::Machine as _;
 use driveline_firmware::scenes::planetary::{self as scene, PlanetaryDrive};
 
-use driveline_closed_loop::departure::Departure;
 use super::facts;
+use driveline_closed_loop::departure::Departure;
 use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::scenario::{Action, Machine, Scenario};
 use driveline_closed_loop::sensors::Encoder;

@@ -4,8 +4,8 @@
 use driveline::configure::Machine as _;
 use driveline_firmware::scenes::skip_winch::{self as scene, SkipWinch};
 
-use driveline_closed_loop::departure::Departure;
 use super::facts;
+use driveline_closed_loop::departure::Departure;
 use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::scenario::{Action, Machine, Scenario};
 use driveline_closed_loop::sensors::Encoder;

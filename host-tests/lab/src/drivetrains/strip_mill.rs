@@ -3,8 +3,8 @@
 use driveline::configure::Machine as _;
 use driveline_firmware::scenes::strip_mill::{self, StripMill};
 
-use driveline_closed_loop::departure::Departure;
 use super::facts;
+use driveline_closed_loop::departure::Departure;
 use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::scenario::{Action, Machine, Scenario};
 use driveline_closed_loop::sensors::Encoder;
