@@ -21,12 +21,13 @@ fn commands() -> Vec<String> {
 
 #[test]
 fn every_command_is_on_the_page_with_all_its_options() {
-    let page = Page::read("doc/commands.md");
+    let pages = ["doc/commands.md", "doc/makers/laboratory.md"].map(Page::read);
+    let sections = || pages.iter().flat_map(|page| &page.sections);
     let commands = commands();
     assert!(commands.len() > 10, "{commands:?}");
     let (mut wrong, mut found) = (Vec::new(), 0);
     for command in &commands {
-        let Some(section) = page.sections.iter().find(|section| section.code == [command.as_str()]) else {
+        let Some(section) = sections().find(|section| section.code == [command.as_str()]) else {
             wrong.push(format!("`{command}` has no section"));
             continue;
         };
