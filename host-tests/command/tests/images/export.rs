@@ -8,6 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output as Ended};
 
+use cargo_driveline::check::skip;
 use cargo_driveline::closed_loop::ticks::Ticks;
 use cargo_driveline::closed_loop::units::Units;
 use cargo_driveline::drivetrains::{hoist as scene, lockstep};
@@ -144,7 +145,7 @@ fn links(compiler: &str, flags: &[&str]) -> bool {
     let ended = Command::new(compiler).args(flags).arg(source).arg("-o").arg(program).output();
     let linked = ended.is_ok_and(|ended| ended.status.success());
     if !linked {
-        println!("skipped: {compiler} with {} is not there", flags.join(" "));
+        skip(format!("{compiler} with {} is not there", flags.join(" ")));
     }
     linked
 }
@@ -223,13 +224,13 @@ fn linker() -> PathBuf {
 #[test]
 fn the_library_in_qemu_gives_the_bits_of_rust_and_takes_few_instructions_more() {
     let Some(emulator) = Emulator::find() else {
-        println!("skipped: QEMU for Arm is not there");
+        skip("QEMU for Arm is not there");
         return;
     };
     let there = |name: &&str| {
         let is_there = Command::new(name).arg("--version").output().is_ok();
         if !is_there {
-            println!("skipped: {name} is not on the path");
+            skip(format!("{name} is not on the path"));
         }
         is_there
     };
