@@ -7,7 +7,7 @@ mod influence;
 mod min_max;
 mod modal;
 mod never_harmful;
-mod noise;
+pub mod noise;
 mod phasor;
 mod polygon;
 mod procedure;
