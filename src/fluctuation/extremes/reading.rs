@@ -101,7 +101,8 @@ fn acos_share(below: f64) -> f64 {
 impl Reading {
     /// The same with the noise of the estimated speeds of motor and load: standard deviations (rad/s), as in
     /// [`StandardDeviation`](crate::design::StandardDeviation) of the observer's design. Noise makes the largest speed
-    /// of a cycle too large and the least too small: they are corrected, and the deltas have a deviation.
+    /// of a cycle too large and the least too small: they are corrected, and the deltas have a deviation. The design's
+    /// disturbance has to cover the load's ripple: the lag of a slower observer is in no noise.
     #[must_use]
     pub fn with_noise(self, config: &CycleConfig, [motor, load]: [f64; 2]) -> Self {
         let samples = self.duration / (SAMPLE * config.period);
