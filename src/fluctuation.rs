@@ -64,6 +64,7 @@
 mod bin;
 mod cycle_mean;
 mod cylinders;
+mod deviation;
 mod extremes;
 mod flywheel;
 mod interleaved;

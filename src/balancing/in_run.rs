@@ -14,6 +14,10 @@
 //! it began. A change that an identified influence does not explain is a jump of the unbalance: the influence stays,
 //! and the correction follows. What was best before it is best no longer.
 //!
+//! Weights stay only where the vibration is below four fifths of that at rest, measured and estimated. Else the head
+//! goes back. The speed of a reading is used only where the reading is not as predicted: slow swings of the speed
+//! hardly change a vibration.
+//!
 //! A resumed run is judged by the first vibration of all: noise and target are shares of that. What was learnt has to
 //! be confirmed again, first at rest and then by a move that is safe without it.
 
@@ -105,13 +109,14 @@ const WALK: f64 = 0.1;
 const ALLOWED: f64 = 0.93;
 /// Least share of a correction that is worth a move.
 const LEAST_SHARE: f64 = 0.3;
-/// Relative change of the vibration for a relative change of the speed: acceleration by unbalance goes with the fourth
-/// power of the speed, with more near a resonance.
-const SPEED_POWER: f64 = 8.0;
-/// Deviation from the speed of the first reading beyond which a reading is not used.
-const SPEED_BAND: f64 = 0.02;
+/// Deviation from the speed of the first reading beyond which a reading is not used that is not as predicted:
+/// acceleration by unbalance goes with the fourth power of the speed, a fifth here.
+const SPEED_BAND: f64 = 0.05;
 /// A vibration below this share of the initial one is better beyond doubt.
 const BETTER: f64 = 0.7;
+/// Share of the vibration at rest that weights have to stay below, to be left there: a hum that keeps its phase makes
+/// readings of weights that are no better look so.
+const WORTH: f64 = 0.8;
 
 /// In-run balancing of at most `ROWS` readings by `PLANES` heads.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -248,22 +253,17 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
     }
 
     /// Takes a steady reading with the present weights and its variance (0 where unknown), and returns the next action.
-    ///
-    /// All readings are of one speed; [`InRun::advise_at`] allows for another.
     pub fn advise(&mut self, reading: &[Complex<T>], variance: T) -> Action<T, PLANES> {
-        self.next(reading, variance, T::zero())
+        self.next(reading, variance)
     }
 
-    /// The same with the speed of the reading, in any unit. A reading more than 2 % off the first one's speed is not
-    /// used; within that the uncertainty grows with the deviation.
+    /// The same with the speed of the reading, in any unit. More than 5 % off the speed of the first reading, one that
+    /// is not as predicted teaches nothing; above the bound the head goes home. One that is as predicted is used at any
+    /// speed, since the speed explains nothing of it.
     pub fn advise_at(&mut self, reading: &[Complex<T>], variance: T, speed: T) -> Action<T, PLANES> {
-        let first = *self.speed.get_or_insert(speed);
-        let off = (speed / first - T::one()).abs();
+        let off = (speed / self.speed.unwrap_or(speed) - T::one()).abs();
         // written so that a NaN is beyond the band
-        if !(off <= real(SPEED_BAND)) {
-            if self.speed == Some(speed) {
-                self.speed = None;
-            }
+        if !(off <= real(SPEED_BAND)) && !self.foresees(reading, variance) {
             if let Some(reason) = self.aborted {
                 return Action::Abort(self.best.1, reason);
             }
@@ -271,12 +271,38 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
             if self.stalled > PATIENCE {
                 return self.abort(AbortReason::Stalled);
             }
-            return Action::Set(self.weights);
+            // no reason to leave it above the bound
+            let high = self.start.is_some_and(|start| !(largest(reading, self.rows) <= start * self.config.bound));
+            return self.go(if high { self.home() } else { self.weights });
         }
-        self.next(reading, variance, off * real(SPEED_POWER))
+        self.speed.get_or_insert(speed);
+        self.next(reading, variance)
     }
 
-    fn next(&mut self, reading: &[Complex<T>], variance: T, off: T) -> Action<T, PLANES> {
+    /// Whether a reading is as predicted.
+    fn foresees(&self, reading: &[Complex<T>], variance: T) -> bool {
+        let Some(start) = self.start else { return false };
+        let noise = self.noise(start, variance);
+        let mut estimate = self.estimate;
+        estimate.predict(&self.moved, noise * noise * real(WALK));
+        let innovation = estimate.innovation(reading, noise * noise);
+        innovation.largest <= innovation.deviation * real(DEVIATIONS)
+    }
+
+    /// Standard deviation of a reading by itself, `start` being the level that it began with.
+    fn own(&self, start: T, variance: T) -> T {
+        let first = if self.resumed { self.first } else { T::zero() };
+        (start.max(first) * self.config.noise).max(variance.max(T::zero()).sqrt())
+    }
+
+    /// The same with what the readings change by themselves. The reading itself does not count: a jump would widen what
+    /// it is judged by.
+    fn noise(&self, start: T, variance: T) -> T {
+        let foreseen = self.estimate.level_after(&self.moved).max(self.level);
+        self.own(start, variance).max(foreseen * self.scatter)
+    }
+
+    fn next(&mut self, reading: &[Complex<T>], variance: T) -> Action<T, PLANES> {
         if let Some(reason) = self.aborted {
             return Action::Abort(self.best.1, reason);
         }
@@ -286,24 +312,19 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
             return Action::Abort(self.home(), AbortReason::NoReading);
         }
         let level = largest(reading, self.rows);
-        let given = if variance > T::zero() { variance.sqrt() } else { T::zero() };
-        let first = if self.resumed { self.first } else { T::zero() };
-        let share = self.config.noise;
-        let own = |start: T| (start.max(first) * share).max(given).max(level * off);
         let Some(start) = self.start else {
             self.level = level;
             (self.start, self.best) = (Some(level), (level, self.weights));
-            self.estimate.restart(reading, own(level) * own(level));
+            let own = self.own(level, variance);
+            self.estimate.restart(reading, own * own);
             if !self.resumed {
                 self.first = level;
             }
             let most = self.first * (self.config.bound - T::one()) * real(0.95) / self.config.probe;
             let rest = self.estimate.begin(most) || self.resumed;
-            return if rest { Action::Set(self.weights) } else { self.correct(level, own(level)) };
+            return if rest { Action::Set(self.weights) } else { self.correct(level, own) };
         };
-        // not by the reading itself: a jump would widen what it is judged by
-        let foreseen = self.estimate.level_after(&self.moved).max(self.level);
-        let noise = own(start).max(foreseen * self.scatter);
+        let noise = self.noise(start, variance);
         if self.weights == self.best.1 {
             self.best.0 = level;
         }
@@ -341,8 +362,8 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
         }
         // resumed where the largest move that is safe cannot be told from the readings' error
         let change = start * (self.config.bound * real(ALLOWED) - T::one());
-        let faint = self.resumed && at_rest && !confirmed && change * real(INFORMATIVE) < own(start);
-        if level <= start.max(first) * self.config.target || faint {
+        let faint = self.resumed && at_rest && !confirmed && change * real(INFORMATIVE) < self.own(start, variance);
+        if level <= start.max(if self.resumed { self.first } else { T::zero() }) * self.config.target || faint {
             (self.stalled, self.probes, self.failures) = (0, 0, 0);
             return Action::Hold;
         }
@@ -404,9 +425,11 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
             if !still && wrong {
                 // the influence may be wrong: it has to be confirmed again, from where it began
                 let ratio = innovation.largest / innovation.deviation;
+                // or it is a jump of the unbalance: then the weights that it began with have another level
+                let least = start.min(self.estimate.level_from(reading, &self.back()));
                 self.estimate.learn(&innovation);
                 self.estimate.doubt(ratio * ratio);
-                if level > start * real(BETTER) {
+                if level > least * real(BETTER) {
                     self.best = (start, self.rest);
                 }
                 return start;
@@ -438,11 +461,16 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
 
     /// Level with the weights that it began with, as estimated.
     fn at_rest(&self) -> T {
+        self.estimate.level_after(&self.back())
+    }
+
+    /// Step to the weights that it began with.
+    fn back(&self) -> [Complex<T>; PLANES] {
         let mut back = self.rest;
         for (back, weight) in back.iter_mut().zip(&self.weights) {
             *back -= *weight;
         }
-        self.estimate.level_after(&back)
+        back
     }
 
     /// The next move: a correction where it cannot do harm, a probe where the influence is not known well enough.
@@ -451,11 +479,18 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
         let correction = self.within(self.estimate.cautious());
         let mut probing = self.estimate.least_known();
         if probing.is_none() {
+            let after = self.estimate.level_after(&correction);
+            // not enough to be left there
+            if self.weights == self.rest && after > start * real(WORTH) {
+                (self.stalled, self.probes, self.failures) = (0, 0, 0);
+                return Action::Hold;
+            }
             // within the readings' error nothing is left to gain
-            if level - self.estimate.level_after(&correction) < noise {
-                // weights that are not better beyond doubt are not left there
+            if level - after < noise {
+                // weights that are not better beyond doubt are not left there: by the estimate, which a slow beat may
+                // have led astray, and as measured
                 let home = self.home();
-                let better = self.at_rest() - level > noise + noise;
+                let better = self.at_rest() - level > noise + noise && self.level < start * real(WORTH);
                 if better || self.weights == home {
                     (self.stalled, self.probes, self.failures) = (0, 0, 0);
                     return Action::Hold;

@@ -216,7 +216,7 @@ pub struct PhasorsConfig<N: Number, const CHANNELS: usize> {
     pub(crate) turning: RotorAngleConfig,
     /// Whole turns, times the order, of a block.
     pub(crate) block: u32,
-    /// The largest sample of each channel that is not clipped.
+    /// The largest sample of each channel that is not clipped, just below the end of its range.
     pub(crate) limits: [N; CHANNELS],
     /// Limits of a reading's unsteadiness.
     pub(crate) steadiness: Steadiness,

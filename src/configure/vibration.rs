@@ -10,7 +10,7 @@ pub trait HasVibration: Machine {
     /// The rotor that is measured, and how: the motor's shaft, eight turns a block. Its
     /// [`floor`](crate::balancing::Steadiness::floor) is in the unit of the sensors, whatever the number.
     const PHASORS: PhasorSettings = PhasorSettings::DIRECT;
-    /// The largest sample of each channel that is not clipped (unit of the sensors).
+    /// The end of the range of each channel (unit of the sensors): a sample there or beyond is clipped.
     const VIBRATION_LIMIT: f64;
     /// Base of the samples in fixed point (unit of the sensors): twice the limit.
     const VIBRATION_BASE: f64 = 2.0 * Self::VIBRATION_LIMIT;

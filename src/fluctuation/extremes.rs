@@ -8,8 +8,8 @@
 //! them.
 //!
 //! The speeds are the observer's. A ripple much faster than the observer is smaller in them than it is. Their noise
-//! makes the largest value too large and the least too small by two or three of its standard deviations. Where delta is
-//! not far above that, take a [`super::Waveform`].
+//! makes the largest value too large and the least too small by two or three of its standard deviations:
+//! [`Reading::with_noise`] corrects them. Where delta is not far above that, take a [`super::Waveform`].
 
 mod peak;
 mod reading;

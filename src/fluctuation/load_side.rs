@@ -15,6 +15,7 @@ use core::f64::consts::TAU;
 use super::extremes::Fluctuations;
 use super::series::{Circle, Order, Series, circle};
 use super::{Bin, CycleConfig, Ripple, Summed, WaveformConfig, Window};
+use crate::math::sqrt;
 
 /// Two masses and their shaft, referred to the motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +41,8 @@ pub struct LoadSide {
     pub load_speed: Series,
     /// Torque of the load (N m).
     pub load_torque: Series,
-    /// Extremes of the load's speed, and its delta.
+    /// Extremes of the load's speed, and its delta. The deviation is the motor's, by the order that the shaft magnifies
+    /// most.
     pub load: Fluctuations,
     /// Energy swing over the cycle, largest less least of the kinetic energy of both masses and the energy in the
     /// shaft: A_max (J) [Wang 1989 ch. 5].
@@ -82,12 +84,17 @@ impl Ripple {
         let shaft_torque = self.reaction(&self.speed, torque, machine.motor_inertia, per_angle, &circle);
         let mut twist = Series { mean: shaft_torque.mean / machine.stiffness, ..Series::default() };
         let mut load_speed = self.speed;
+        let (fitted, mut magnified) = (self.speed.highest() as f64, 0.0_f64);
         for (((n, torque), twist), speed) in
             (1_u32..).zip(&shaft_torque.orders).zip(&mut twist.orders).zip(&mut load_speed.orders)
         {
             let n = f64::from(n);
             let (k, d) = (machine.stiffness, machine.damping * turning * n);
             let size = k * k + d * d;
+            // of an order of the motor's speed: 1 - J w^2/(k + i d w)
+            let inertial = machine.motor_inertia * (turning * n) * (turning * n);
+            let square = ((k - inertial) * (k - inertial) + d * d) / size;
+            magnified = if fitted >= n { magnified.max(sqrt(square)) } else { magnified };
             *twist =
                 Order { cos: (k * torque.cos - d * torque.sin) / size, sin: (k * torque.sin + d * torque.cos) / size };
             let rate = twist.derivative(n);
@@ -103,7 +110,8 @@ impl Ripple {
             least = energy.min(least);
             most = energy.max(most);
         }
-        let load = load_speed.fluctuations(self.mean, cycle.angle, &circle);
+        let deviation = self.motor.deviation * magnified;
+        let load = Fluctuations { deviation, ..load_speed.fluctuations(self.mean, cycle.angle, &circle) };
         LoadSide { shaft_torque, load_speed, load_torque, load, energy_swing: most - least }
     }
 

@@ -72,6 +72,11 @@ impl Series {
         series
     }
 
+    /// Sum of the squares of its coefficients, but for the mean.
+    pub(super) fn square(&self) -> f64 {
+        self.orders.iter().map(|order| order.cos * order.cos + order.sin * order.sin).sum()
+    }
+
     /// The highest order that is not zero.
     pub(super) fn highest(&self) -> usize {
         self.orders.iter().rposition(|order| order.cos != 0.0 || order.sin != 0.0).map_or(0, |last| last + 1)

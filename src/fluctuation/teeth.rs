@@ -7,6 +7,7 @@
 
 use core::f64::consts::TAU;
 
+use super::deviation::{Left, deviation, sensitivity};
 use super::quality::{Quality, Unusable};
 use super::series::{Order, Series};
 use super::{MAX_ORDER, Ripple};
@@ -198,14 +199,14 @@ impl<const TEETH: usize> ToothWindow<TEETH> {
                 *order = Order { cos: TAU * order.cos, sin: TAU * order.sin };
             }
         }
-        let mut residue = 0.0;
+        let mut rest = Left::new(highest);
         for (tooth, &own) in own.iter().enumerate() {
             let left = own - fit.at(TAU * place(config, tooth));
             let slack = config.teeth.get(tooth % WHEEL.max(1)).map_or(0, |tooth| tooth.slack);
             if left.abs() * f64::from(config.turns) > f64::from(slack) / 4_294_967_296.0 * Unusable::TOOTH {
                 return Err(Unusable::Teeth);
             }
-            residue += left * left;
+            rest.add(place(config, tooth), left);
         }
         let teeth = TEETH.max(1) as f64;
         let mean_square: f64 = self.late.iter().map(|&late| f64::from(late) * f64::from(late)).sum::<f64>()
@@ -213,75 +214,90 @@ impl<const TEETH: usize> ToothWindow<TEETH> {
             / f64::from(self.cycles);
         let spread = self.squares / f64::from(self.cycles) - mean_square;
         let quality = Quality {
-            residue: sqrt(residue / teeth) * angle,
+            residue: rest.rms() * angle,
             spread: if self.cycles > 1 { sqrt((spread / teeth).max(0.0)) * angle } else { 0.0 },
             trend: rise,
             missed: self.missed,
         };
         let speed = f64::from(self.cycles) * angle / self.whole;
-        let ripple = Ripple::of(slowness, speed, acceleration, angle, highest, self.cycles);
-        if ripple.turns_one_way() { Ok(Ripple { quality, ..ripple }) } else { Err(Unusable::Trend) }
+        let mut ripple = Ripple { quality, ..Ripple::of(slowness, speed, acceleration, angle, highest, self.cycles) };
+        // What the orders leave shows the error of a tooth: the clock's rounding, its pitch, higher orders. A rounding
+        // that repeats in every cycle need not show there.
+        let (cycles, spread) = (f64::from(self.cycles), (spread / teeth).max(0.0));
+        let count = config.period * cycles / self.whole;
+        let tooth = rest.variance().max((count * count / 12.0 - spread).max(0.0) + spread / cycles);
+        let at = [ripple.motor.max, ripple.motor.min].map(|extreme| extreme.angle / f64::from(config.turns));
+        let by = sensitivity(&slowness, at, highest);
+        let own = tooth * product(&by, &solved::<WHEEL, TEETH>(config, by));
+        let parts = [own, rest.of_coefficient(tooth), rest.beyond()];
+        ripple.motor.deviation = deviation(&slowness, at, parts, highest);
+        if ripple.turns_one_way() { Ok(ripple) } else { Err(Unusable::Trend) }
     }
 }
 
 /// Most steps of the least squares; each is closer by a factor that grows with the evenness of the teeth.
 const STEPS: u32 = 40;
 
-/// The mean and the orders of values at the teeth by least squares, from a first guess: conjugate gradients on the
-/// normal equations (Bjorck, Numerical Methods for Least Squares Problems, 7.4.1).
+/// The mean and the orders of values at the teeth by least squares, from a first guess.
 fn fitted<const WHEEL: usize, const TEETH: usize>(
     config: &ToothedWheelConfig<WHEEL>,
     values: &[f64; TEETH],
     guess: &Series,
     highest: usize,
 ) -> Series {
-    let at = |tooth: usize| sin_cos(TAU * place(config, tooth));
-    let mut series = *guess;
-    let mut left = *values;
-    for (tooth, left) in left.iter_mut().enumerate() {
-        let (sin, cos) = at(tooth);
-        *left -= series.along(cos, sin);
+    let left = |tooth: usize, series: &Series| {
+        let (sin, cos) = sin_cos(TAU * place(config, tooth));
+        values.get(tooth).map_or(0.0, |value| value - series.along(cos, sin))
+    };
+    let found = solved::<WHEEL, TEETH>(config, summed::<WHEEL, TEETH>(config, highest, |tooth| left(tooth, guess)));
+    combined(guess, 1.0, &found)
+}
+
+/// Sum of the teeth's values times 1, cos n theta and sin n theta.
+fn summed<const WHEEL: usize, const TEETH: usize>(
+    config: &ToothedWheelConfig<WHEEL>,
+    highest: usize,
+    value: impl Fn(usize) -> f64,
+) -> Series {
+    let mut sum = Series::default();
+    for tooth in 0..TEETH {
+        let (value, (sin, cos)) = (value(tooth), sin_cos(TAU * place(config, tooth)));
+        sum.mean += value;
+        let (mut c, mut s) = (1.0, 0.0);
+        for order in sum.orders.iter_mut().take(highest) {
+            (c, s) = (c * cos - s * sin, s * cos + c * sin);
+            order.cos += value * c;
+            order.sin += value * s;
+        }
     }
-    let mut direction = Series::default();
-    let (mut first, mut last) = (0.0, 0.0);
-    for step in 0..STEPS {
-        let mut gradient = Series::default();
-        for (tooth, &left) in left.iter().enumerate() {
-            let (sin, cos) = at(tooth);
-            gradient.mean += left;
-            let (mut c, mut s) = (1.0, 0.0);
-            for order in gradient.orders.iter_mut().take(highest) {
-                (c, s) = (c * cos - s * sin, s * cos + c * sin);
-                order.cos += left * c;
-                order.sin += left * s;
-            }
-        }
-        let size = product(&gradient, &gradient);
-        if step == 0 {
-            first = size;
-        }
+    sum
+}
+
+/// Solves the normal equations for a right-hand side by conjugate gradients (Bjorck, Numerical Methods for Least
+/// Squares Problems, 7.4.1).
+fn solved<const WHEEL: usize, const TEETH: usize>(config: &ToothedWheelConfig<WHEEL>, right: Series) -> Series {
+    let highest = right.highest();
+    let (mut series, mut left, mut direction) = (Series::default(), right, right);
+    let first = product(&left, &left);
+    let mut size = first;
+    for _ in 0..STEPS {
         // The orders are then right to 1e-9 of the largest.
         if size <= 1e-18 * first || size <= 1e-30 {
             break;
         }
-        let share = if step == 0 { 0.0 } else { size / last };
-        last = size;
-        direction = combined(&gradient, share, &direction);
-        let mut along = [0.0; TEETH];
-        let mut square = 0.0;
-        for (tooth, along) in along.iter_mut().enumerate() {
-            let (sin, cos) = at(tooth);
-            *along = direction.along(cos, sin);
-            square += *along * *along;
-        }
+        let along = summed::<WHEEL, TEETH>(config, highest, |tooth| {
+            let (sin, cos) = sin_cos(TAU * place(config, tooth));
+            direction.along(cos, sin)
+        });
+        let square = product(&direction, &along);
         if square <= 0.0 {
             break;
         }
-        let length = size / square;
-        series = combined(&series, length, &direction);
-        for (left, along) in left.iter_mut().zip(&along) {
-            *left -= length * along;
-        }
+        series = combined(&series, size / square, &direction);
+        left = combined(&left, -size / square, &along);
+        let last = size;
+        size = product(&left, &left);
+        direction = combined(&left, size / last, &direction);
     }
     series
 }

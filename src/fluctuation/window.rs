@@ -2,6 +2,7 @@
 
 use core::f64::consts::TAU;
 
+use super::deviation::{Left, deviation, sensitivity};
 use super::extremes::{Extreme, Fluctuations};
 use super::position::RADIANS;
 use super::quality::{Quality, Unusable};
@@ -68,8 +69,10 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
         if self.edges.iter().any(|edge| sign * edge.speed.to_real() < 0.0) {
             return Err(Unusable::Trend);
         }
+        // some orders more, which show the noise
+        let fitted = (highest + NEXT).min(MAX_ORDER).min(BINS / 4);
         let mut counted = Series::default();
-        for (n, order) in (1_u32..).zip(counted.orders.iter_mut().take(highest)) {
+        for (n, order) in (1_u32..).zip(counted.orders.iter_mut().take(fitted)) {
             *order = self.counted(f64::from(n));
             order.sin *= sign;
         }
@@ -91,7 +94,7 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
             ticks = ends.ticks;
             ramp = Ramp::of(ends.ticks, ends.opening, ends.closing, self.cycles);
             let mut integrals = counted;
-            for (n, order) in (1_u32..).zip(integrals.orders.iter_mut().take(highest)) {
+            for (n, order) in (1_u32..).zip(integrals.orders.iter_mut().take(fitted)) {
                 for (part, weight) in ends.parts.iter().zip([1.0, -1.0]) {
                     let n = f64::from(n);
                     let (cos, sin) = part.integral(&slowness, n);
@@ -100,45 +103,56 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
                     order.sin += weight * (sin + beyond_sin);
                 }
             }
-            slowness = ramp.taken_off(&slowness, &integrals, ticks, highest);
+            slowness = ramp.taken_off(&slowness, &integrals, ticks, fitted);
         }
         for order in &mut slowness.orders {
             order.sin *= sign;
+        }
+        let (mut coefficient, mut beyond) = (0.0, 0.0);
+        for (n, order) in (1_u32..).zip(&mut slowness.orders).skip(highest) {
+            let square = order.cos * order.cos + order.sin * order.sin;
+            // Half of the mean square; and half of that more, as some eight values show it.
+            coefficient += 0.75 * square / (TAU * TAU * f64::from(n * n)) / (fitted - highest) as f64;
+            beyond += if n as usize <= highest + 2 { square } else { 0.0 };
+            *order = Order::default();
         }
         let rise = ramp.slowness * TAU * cycles / ticks / f64::from(self.cycles.max(1));
         if rise.abs() > Unusable::RISE {
             return Err(Unusable::Trend);
         }
-        let residue = self.residue(&slowness) * config.cycle.angle / TAU;
-        let quality = Quality { residue, trend: rise, ..Quality::default() };
+        let left = self.left(&slowness, highest);
+        let quality = Quality { residue: left.rms() * config.cycle.angle, trend: rise, ..Quality::default() };
         let mean = sign * cycles * config.cycle.angle / (ticks * config.cycle.period);
         let per_tick = config.cycle.angle / TAU / config.cycle.period;
         let acceleration = sign * per_tick * ramp.acceleration / config.cycle.period;
         let ripple = Ripple::of(slowness, mean, acceleration, config.cycle.angle, highest, self.cycles);
-        if ripple.turns_one_way() { Ok(Ripple { quality, ..ripple }) } else { Err(Unusable::Trend) }
+        let mut ripple = Ripple { quality, ..ripple };
+        let at = [ripple.motor.max, ripple.motor.min].map(|extreme| extreme.angle * TAU / config.cycle.angle);
+        if fitted == highest {
+            (coefficient, beyond) = (left.of_coefficient(left.variance()), left.beyond());
+        }
+        let own = coefficient * sensitivity(&slowness, at, highest).square();
+        ripple.motor.deviation = deviation(&slowness, at, [own, coefficient, beyond], highest);
+        if ripple.turns_one_way() { Ok(ripple) } else { Err(Unusable::Trend) }
     }
 
-    /// Rms of the angle by which the ticks counted up to the end of each bin differ from the waveform (rad), 2 pi to
-    /// the cycle.
-    fn residue(&self, slowness: &Series) -> f64 {
+    /// By how much the ticks counted up to the end of each bin differ from the waveform.
+    fn left(&self, slowness: &Series, highest: usize) -> Left {
         let total: f64 = self.bins.iter().map(|bin| f64::from(bin.ticks)).sum();
-        let (mut counted, mut sum, mut squares) = (0.0, 0.0, 0.0);
+        let (mut counted, mut left) = (0.0, Left::new(highest));
         for (index, bin) in (1_u32..).zip(&self.bins) {
             counted += f64::from(bin.ticks);
-            let theta = TAU * f64::from(index) / BINS as f64;
+            let place = f64::from(index) / BINS as f64;
             // The integral of the slowness over the angle, but for a constant.
             let mut late = 0.0;
             for (n, order) in (1_u32..).zip(&slowness.orders) {
                 let n = f64::from(n);
-                let (s, c) = sin_cos(n * theta);
+                let (s, c) = sin_cos(n * TAU * place);
                 late += (order.cos * s - order.sin * c) / n;
             }
-            let left = TAU * counted / total.max(1.0) - theta - late;
-            sum += left;
-            squares += left * left;
+            left.add(place, counted / total.max(1.0) - place - late / TAU);
         }
-        let mean = sum / BINS as f64;
-        sqrt((squares / BINS as f64 - mean * mean).max(0.0))
+        left
     }
 
     /// Sum of cos(n theta) and sin(n theta) over the ticks that were counted. Of many in a bin it is that of the
@@ -298,6 +312,9 @@ fn times_ripple(ripple: &Series, n: f64, integral: impl Fn(f64) -> (f64, f64)) -
 const MANY: f64 = 16.0;
 /// Ticks in a bin whose squares of 2^14 have room in its sum; of more a spread as even is taken.
 const SQUARES: u32 = 1 << 18;
+
+/// Orders beyond the highest that show the noise of the others.
+const NEXT: usize = 4;
 
 /// How often the trend and the ends are put right anew, by the ripple that is then known; each round is closer by the
 /// ratio of trend and mean.

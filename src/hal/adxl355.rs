@@ -99,7 +99,7 @@ impl<S, N: Scaled> Adxl355<S, N> {
             Along::Z => [z2, z1, z0],
         };
         let counts = i32::from_be_bytes([high, middle, low, 0]) >> 12;
-        if !(-CLIPPED..CLIPPED).contains(&counts) {
+        if counts <= -CLIPPED || counts >= CLIPPED {
             return Err(Faults::VIBRATION_CLIPPED);
         }
         Ok(Some(self.per_count.times(counts)))

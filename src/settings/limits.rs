@@ -19,7 +19,8 @@ const INNOVATION: &str =
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Screening {
-    /// Largest plausible applied torque (N m).
+    /// Largest plausible applied torque (N m), below the end of the range of a sensor that reports it: a report at that
+    /// end is saturated. A torque at this limit is taken, as the command may be there.
     pub torque: f64,
     /// Largest plausible setpoint (rad/s).
     pub setpoint: f64,

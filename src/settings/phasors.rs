@@ -81,8 +81,8 @@ const fn turning(measured: &PhasorSettings) -> Result<(RotorAngleConfig, u32), P
 macro_rules! phasors {
     ($number:ident, $most:expr, |$limit:ident| $convert:expr) => {
         impl<const CHANNELS: usize> PhasorsConfig<$number, CHANNELS> {
-            /// The constants of a measurement; `limits` are the largest samples of each channel that are not clipped
-            /// (unit of the channel, per unit of its base in fixed point).
+            /// The constants of a measurement; `limits` are the ends of the range of each channel (unit of the channel,
+            /// per unit of its base in fixed point). A sample there or beyond is clipped, as one within 1e-6 of it.
             ///
             /// # Panics
             /// With the sentence of [`PhasorError`]: a compile error in a constant.
@@ -118,9 +118,14 @@ macro_rules! phasors {
     };
 }
 
-phasors!(f32, 1e30, |limit| limit as f32);
-phasors!(f64, 1e300, |limit| limit);
-phasors!(Fixed, 2.0, |limit| Fixed::from_f64(limit));
+/// Share of the end of a range that a sample may reach. Samples and limits are scaled and rounded apart from each
+/// other: some 2^-22 in single precision.
+const BELOW: f64 = 1.0 - 1e-6;
+
+phasors!(f32, 1e30, |limit| (limit * BELOW) as f32);
+phasors!(f64, 1e300, |limit| limit * BELOW);
+// a base is 2^28 units: of a small limit they round by more than that share
+phasors!(Fixed, 2.0, |limit| Fixed::from_f64((limit * BELOW - 2.0 / 268_435_456.0).max(0.0)));
 
 #[cfg(test)]
 mod tests {

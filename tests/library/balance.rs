@@ -1,12 +1,13 @@
 //! Balancing: phasors on the tick, influence coefficients off it, weights, the procedure, in-run, the command.
 
+mod disturbed_rotors;
 mod holes;
 mod in_run;
 mod influence;
 mod min_max;
 mod modal;
 mod never_harmful;
-mod noise;
+pub mod noise;
 mod phasor;
 mod polygon;
 mod procedure;

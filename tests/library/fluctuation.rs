@@ -3,6 +3,7 @@
 mod breakage;
 mod cycle_mean;
 mod cylinders;
+mod deviation;
 mod extremes;
 mod flywheel;
 mod motion;

@@ -3,4 +3,5 @@
 mod eccentricity;
 mod gear_loss;
 mod run_up;
+mod stored;
 mod torque_constant;

@@ -112,6 +112,7 @@ impl<M: HasVibration, A: Adviser> AxisPanel<M, A> {
             (extremes.cycles() != last).then_some(*extremes)
         })?;
         self.cycles = extremes.cycles();
-        Some(last_turn(&config.fluctuation, &extremes))
+        let turn = last_turn::<M, N>(&config.fluctuation, &extremes);
+        Some(turn.map_or([0.0; 3], |turn| [turn.mean as f32, turn.motor.delta as f32, turn.load.delta as f32]))
     }
 }

@@ -6,7 +6,7 @@
 use core::marker::PhantomData;
 
 use driveline::configure::Machine;
-use driveline::fluctuation::{Drivetrain, Extremes, Ranked, Summed, WaveformConfig, Window};
+use driveline::fluctuation::{Drivetrain, Extremes, Fluctuations, Ranked, Reading, Summed, WaveformConfig, Window};
 
 /// Key: keeps the waveform of the last finished turns; answers [`DONE`], or [`NOT_YET`] where there is none.
 pub const TAKE: u32 = 64;
@@ -25,6 +25,9 @@ pub const LOAD_EXTREMES: u32 = 70;
 /// Key: mean speed of the last finished turn (rad/s).
 pub const MEAN: u32 = 71;
 
+/// Keys: standard deviations of the deltas of keys 65, 66, 69 and 70.
+pub const DEVIATIONS: [u32; 4] = [72, 73, 74, 75];
+
 /// Answer: done.
 pub const DONE: u32 = 1;
 /// Answer: no finished turns, or none that a waveform can be taken from.
@@ -36,8 +39,8 @@ pub const HIGHEST: usize = 2;
 
 /// The waveform that was kept, of the machine `M`.
 pub struct FluctuationPanel<M> {
-    /// Delta of motor and load.
-    deltas: [f32; 2],
+    /// Delta of motor and load, and their standard deviations.
+    deltas: [[f32; 2]; 2],
     /// Cosine and sine of the motor's orders (rad/s).
     orders: [[f32; 2]; HIGHEST],
     machine: PhantomData<M>,
@@ -45,11 +48,13 @@ pub struct FluctuationPanel<M> {
 
 impl<M> Default for FluctuationPanel<M> {
     fn default() -> Self {
-        FluctuationPanel { deltas: [0.0; 2], orders: [[0.0; 2]; HIGHEST], machine: PhantomData }
+        FluctuationPanel { deltas: [[0.0; 2]; 2], orders: [[0.0; 2]; HIGHEST], machine: PhantomData }
     }
 }
 
 impl<M: Machine> FluctuationPanel<M> {
+    /// Standard deviations of the estimated speeds of motor and load (rad/s).
+    const NOISE: [f64; 2] = [M::OBSERVER.standard_deviation.motor_speed, M::OBSERVER.standard_deviation.load_speed];
     /// Shaft and masses, for the load side of the waveform.
     const DRIVETRAIN: Drivetrain = Drivetrain::of(&M::TWO_MASS);
 
@@ -63,7 +68,7 @@ impl<M: Machine> FluctuationPanel<M> {
         let Some(window) = window else { return NOT_YET };
         let Ok(ripple) = window.ripple(config, HIGHEST) else { return NOT_YET };
         let load = ripple.load_side(&config.cycle, &Self::DRIVETRAIN, &window.motor_torque(config, HIGHEST)).load;
-        self.deltas = [ripple.motor.delta as f32, load.delta as f32];
+        self.deltas = [ripple.motor, load].map(|of| [of.delta as f32, of.deviation as f32]);
         for (kept, order) in self.orders.iter_mut().zip(&ripple.speed.orders) {
             *kept = [order.cos as f32, order.sin as f32];
         }
@@ -79,29 +84,31 @@ impl<M: Machine> FluctuationPanel<M> {
     ) -> u32 {
         let [cosine, sine] = self.orders.get(value.wrapping_sub(1) as usize).copied().unwrap_or_default();
         let number = match key {
-            MOTOR_DELTA => self.deltas[0],
-            LOAD_DELTA => self.deltas[1],
+            MOTOR_DELTA => self.deltas[0][0],
+            LOAD_DELTA => self.deltas[1][0],
             COSINE => cosine,
             SINE => sine,
-            MEAN | MOTOR_EXTREMES | LOAD_EXTREMES => {
-                let [mean, motor, load] = last_turn(config, &extremes());
+            _ if key == DEVIATIONS[0] => self.deltas[0][1],
+            _ if key == DEVIATIONS[1] => self.deltas[1][1],
+            _ => {
+                let Some(turn) = last_turn::<M, N>(config, &extremes()) else { return 0 };
+                let of = |delta: u32, of: Fluctuations| (if key == delta { of.delta } else { of.deviation }) as f32;
                 match key {
-                    MOTOR_EXTREMES => motor,
-                    LOAD_EXTREMES => load,
-                    _ => mean,
+                    MEAN => turn.mean as f32,
+                    MOTOR_EXTREMES => of(MOTOR_EXTREMES, turn.motor),
+                    LOAD_EXTREMES => of(LOAD_EXTREMES, turn.load),
+                    _ if key == DEVIATIONS[2] => of(MOTOR_EXTREMES, turn.motor),
+                    _ if key == DEVIATIONS[3] => of(LOAD_EXTREMES, turn.load),
+                    _ => 0.0,
                 }
             }
-            _ => 0.0,
         };
         number.to_bits()
     }
 }
 
-/// The last finished turn by its extremes: mean speed (rad/s), delta of the motor and of the load. Zeros where there
-/// is none.
+/// The last finished turn by its extremes, without what the estimates' noise adds to them.
 #[inline(never)]
-pub fn last_turn<N: Ranked>(config: &WaveformConfig, extremes: &Extremes<N>) -> [f32; 3] {
-    extremes
-        .reading(&config.cycle)
-        .map_or([0.0; 3], |turn| [turn.mean as f32, turn.motor.delta as f32, turn.load.delta as f32])
+pub fn last_turn<M: Machine, N: Ranked>(config: &WaveformConfig, extremes: &Extremes<N>) -> Option<Reading> {
+    Some(extremes.reading(&config.cycle)?.with_noise(&config.cycle, FluctuationPanel::<M>::NOISE))
 }

@@ -184,8 +184,12 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Estimate<T, ROWS, PLANES
 
     /// The largest amplitude after moved weights.
     pub(super) fn level_after(&self, moved: &[Complex<T>; PLANES]) -> T {
-        (0..self.rows)
-            .fold(T::zero(), |most, row| most.max(size(pick(&self.now, row, zero()) + self.change(row, moved))))
+        self.level_from(&self.now, moved)
+    }
+
+    /// The same from a reading.
+    pub(super) fn level_from(&self, reading: &[Complex<T>], moved: &[Complex<T>; PLANES]) -> T {
+        (0..self.rows).fold(T::zero(), |most, row| most.max(size(pick(reading, row, zero()) + self.change(row, moved))))
     }
 
     /// Takes moved weights into account, and the square of what readings change from one to the next.

@@ -1,5 +1,9 @@
 //! The reading of a cycle: mean, extremes and delta.
 
+use super::SAMPLE;
+use crate::fluctuation::CycleConfig;
+use crate::math::{atan2, ln, sqrt};
+
 /// A largest or least speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -24,6 +28,8 @@ pub struct Fluctuations {
     pub delta: f64,
     /// (max - min) over the arithmetic mean.
     pub delta_arithmetic: f64,
+    /// Standard deviation of both deltas; infinite where the noise of the speed is not known.
+    pub deviation: f64,
 }
 
 impl Fluctuations {
@@ -37,6 +43,7 @@ impl Fluctuations {
             arithmetic_mean,
             delta: swing / mean.abs(),
             delta_arithmetic: swing / arithmetic_mean.abs(),
+            deviation: f64::INFINITY,
         }
     }
 }
@@ -56,4 +63,53 @@ pub struct Reading {
     pub motor: Fluctuations,
     /// The load.
     pub load: Fluctuations,
+}
+
+/// Share of the mean that the largest of independent values has which is added to an extreme: values that follow each
+/// other are alike, and the parabola through three of them rises above the largest.
+const WIDENED: [f64; 2] = [0.65, 0.35];
+
+impl Fluctuations {
+    /// The extremes without what noise of a standard deviation adds to them (rad/s), and the deviation of delta: of so
+    /// many samples of a cycle those near an extreme compete, of a wave of once a cycle.
+    fn without_noise(self, mean: f64, noise: f64, samples: f64) -> Self {
+        let noise = noise.abs();
+        let measured = self.max.speed - self.min.speed;
+        let mut added = 0.0;
+        for _ in 0..4 {
+            let amplitude = (0.5 * measured - WIDENED[0] * added).max(0.25 * noise);
+            let share = if noise > 0.0 { acos_share(noise / amplitude) } else { 0.0 };
+            added = noise * sqrt((1.64 * ln((samples * share).max(1.0)) - 1.2).max(0.0));
+        }
+        let off = WIDENED[0] * added;
+        let [mut max, mut min] = [self.max, self.min];
+        (max.speed, min.speed) = (max.speed - off, min.speed + off);
+        let own = 2.0 * noise * noise;
+        let unsure = 2.0 * WIDENED[1] * added;
+        let deviation = sqrt(own + unsure * unsure) / mean.abs();
+        Fluctuations { deviation, ..Fluctuations::of(max, min, mean) }
+    }
+}
+
+/// Share of a cycle in which a cosine is within so much of its largest value.
+fn acos_share(below: f64) -> f64 {
+    let x = below.min(2.0);
+    // the angle whose versed sine it is, by its half
+    2.0 * atan2(sqrt(0.5 * x), sqrt((1.0 - 0.5 * x).max(0.0))) / core::f64::consts::PI
+}
+
+impl Reading {
+    /// The same with the noise of the estimated speeds of motor and load: standard deviations (rad/s), as in
+    /// [`StandardDeviation`](crate::design::StandardDeviation) of the observer's design. Noise makes the largest speed
+    /// of a cycle too large and the least too small: they are corrected, and the deltas have a deviation. The design's
+    /// disturbance has to cover the load's ripple: the lag of a slower observer is in no noise.
+    #[must_use]
+    pub fn with_noise(self, config: &CycleConfig, [motor, load]: [f64; 2]) -> Self {
+        let samples = self.duration / (SAMPLE * config.period);
+        Reading {
+            motor: self.motor.without_noise(self.mean, motor, samples),
+            load: self.load.without_noise(self.mean, load, samples),
+            ..self
+        }
+    }
 }

@@ -248,6 +248,42 @@ fn blocks_that_differ_are_a_reading_where_their_mean_is_certain() {
     assert_eq!(taken, 20);
 }
 
+/// A sensor that saturates at the end of its range is clipped there, whatever the range, the scale of its converter and
+/// the number: a count's value times the counts may round to either side of the limit. Just inside it is a good one.
+#[test]
+fn a_sample_at_the_end_of_the_range_is_clipped() {
+    let mut noise = Noise::new(77);
+    for case in 0..40 {
+        // four decades of ranges, converters of 12 to 16 bits
+        let (limit, counts) = (20.0 * 10f64.powf(-4.0 * noise.even()), f64::from(1_u32 << (11 + case % 5)));
+        let base = 2.0 * limit;
+        for (end, clipped) in [(1.0, true), (0.999, false)] {
+            let signal = |theta: f64, _: &mut Noise| (1.5 * theta.cos()).clamp(-end, end);
+            let single = run::<f32, 9>(
+                &PhasorsConfig::<f32, 1>::new(&CALM, [limit]),
+                &mut Rig::new(50.0),
+                |v| (v * counts) as f32 * (limit / counts) as f32,
+                signal,
+            );
+            let double = run::<f64, 9>(
+                &PhasorsConfig::<f64, 1>::new(&CALM, [limit]),
+                &mut Rig::new(50.0),
+                |v| v * limit,
+                signal,
+            );
+            let fixed = run::<Fixed, 9>(
+                &PhasorsConfig::<Fixed, 1>::new(&CALM, [limit / base]),
+                &mut Rig::new(50.0),
+                |v| Fixed::from_f64(v * counts * (limit / counts / base)),
+                signal,
+            );
+            for reading in [single, double, fixed] {
+                assert_eq!(reading == Err(ReadingFault::Clipped), clipped, "{limit} {counts}: {reading:?}");
+            }
+        }
+    }
+}
+
 /// The floor of a machine is in the unit of its sensors in every number: a vibration of a fifth of it scatters by less
 /// than the limit, since the floor is its reference, and one of four times the floor by more.
 #[test]

@@ -92,11 +92,13 @@ fn every_fault_is_no_sample() {
     // clipped at either end; lost its trimming; a line stuck high
     burst(&mut expected, 1, (1 << 19) - 1);
     burst(&mut expected, 1, -(1 << 19));
+    // where both ends are alike
+    burst(&mut expected, 1, 1 - (1 << 19));
     burst(&mut expected, 0x11, 1000);
     expected.exchange(&[0x09, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], &[0xff; 14]);
     burst(&mut expected, 1, 1000);
     let mut sensor = sensor(expected);
-    for expected in [MISSING, CLIPPED, CLIPPED, MISSING, MISSING] {
+    for expected in [MISSING, CLIPPED, CLIPPED, CLIPPED, MISSING, MISSING] {
         assert_eq!(sensor.vibration(), expected);
     }
     assert!(sensor.vibration().unwrap().is_some());

@@ -9,8 +9,21 @@ use driveline::wheel::{CycleTimes, Stage, ToothedWheel, ToothedWheelConfig, Whee
 
 use super::window::{Windowed, Windows, doubt};
 
-/// Clock that the edges are timed with (Hz): a turn at the lowest speed takes a hundredth of its range.
+/// Fastest clock that edges are timed with (Hz): a turn at the lowest speed takes a hundredth of its range.
 const CLOCK: f64 = 1e7;
+
+/// Clock that times of edges (s) were taken with (Hz): all of them are whole counts from the first on.
+fn clock_of(edges: &[f64]) -> f64 {
+    let first = edges.first().copied().unwrap_or(0.0);
+    let counts = edges.iter().map(|edge| ((edge - first) * CLOCK).round() as u64);
+    let shared = counts.fold(0, |mut a, mut b| {
+        while b > 0 {
+            (a, b) = (b, a % b);
+        }
+        a
+    });
+    CLOCK / shared.max(1) as f64
+}
 
 /// Lowest speed of an angle (rad/s): 19 r/min, far below an engine's cranking.
 const LOWEST: f64 = 2.0;
@@ -159,7 +172,7 @@ fn angles<const TEETH: usize, const CYCLE: usize>(
     edges: &[f64],
     ticks: &[f64],
 ) -> Result<Followed, Error> {
-    let config = config::<TEETH>(wheel, 1)?;
+    let config = config::<TEETH>(wheel, 1, CLOCK)?;
     let first = ticks.first().copied().unwrap_or(0.0);
     let clock = |time: f64| ((time - first) * CLOCK) as i64 as u32;
     let mut wheel = ToothedWheel::<()>::default();
@@ -182,10 +195,10 @@ fn angles<const TEETH: usize, const CYCLE: usize>(
     Ok(followed)
 }
 
-fn config<const TEETH: usize>(wheel: &Wheel, turns: u32) -> Result<ToothedWheelConfig<TEETH>, Error> {
+fn config<const TEETH: usize>(wheel: &Wheel, turns: u32, clock: f64) -> Result<ToothedWheelConfig<TEETH>, Error> {
     let mut teeth = Teeth { angles: [0.0; TEETH] };
     teeth.angles.copy_from_slice(&wheel.0);
-    ToothedWheelConfig::try_new(&teeth, ToothClock { turns, clock: CLOCK, lowest_speed: LOWEST })
+    ToothedWheelConfig::try_new(&teeth, ToothClock { turns, clock, lowest_speed: LOWEST })
 }
 
 fn run<const TEETH: usize, const CYCLE: usize>(
@@ -193,7 +206,8 @@ fn run<const TEETH: usize, const CYCLE: usize>(
     Windows { turns, cycles, orders }: Windows,
     edges: &[f64],
 ) -> Result<Turned, Error> {
-    let config = config::<TEETH>(wheel, turns)?;
+    let rate = clock_of(edges);
+    let config = config::<TEETH>(wheel, turns, rate)?;
     let first = edges.first().copied().unwrap_or(0.0);
     let mut turned = Turned { edges: edges.len(), teeth: TEETH, ..Turned::default() };
     let mut wheel = ToothedWheel::<CycleTimes<CYCLE>>::default();
@@ -211,7 +225,7 @@ fn run<const TEETH: usize, const CYCLE: usize>(
         if edge - last > std::f64::consts::TAU / LOWEST {
             wheel.lose();
         }
-        wheel.tooth(&config, ((edge - first) * CLOCK) as u64 as u32);
+        wheel.tooth(&config, ((edge - first) * rate).round() as u64 as u32);
         let is_known = wheel.stage() == Stage::Known;
         known += usize::from(is_known);
         if was_known && !is_known && lost.is_none() {

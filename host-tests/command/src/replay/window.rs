@@ -26,6 +26,14 @@ pub struct Windowed {
     pub doubt: Option<&'static str>,
 }
 
+/// Share of a delta that three of its standard deviations are within.
+const SHARE: f64 = 0.05;
+
+/// Whether a delta is known well enough to be used.
+pub fn is_known(ripple: &Ripple) -> bool {
+    3.0 * ripple.motor.deviation <= SHARE * ripple.motor.delta
+}
+
 /// A doubt.
 pub const DIFFER: &str = "the cycles differ by more than their ripple: a stop, a reversal, another load";
 

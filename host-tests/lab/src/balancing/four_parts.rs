@@ -48,8 +48,9 @@ pub(super) fn observed(seen: &[Seen], speed: f64) -> Vec<Claim> {
 pub(super) struct Told {
     pub from: usize,
     pub to: usize,
-    /// Delta of motor and load by the waveform, and of the last turn by its extremes.
+    /// Delta of motor and load by the waveform, and of the last turn by its extremes; and their standard deviations.
     deltas: [[f64; 2]; 2],
+    deviations: [f64; 4],
     /// Mean speed of the last turn (rad/s).
     mean: f64,
     /// Orders 1 and 2 of the motor's speed (rad/s).
@@ -71,12 +72,16 @@ impl Told {
             [number(panel::MOTOR_DELTA, 0)?, number(panel::LOAD_DELTA, 0)?],
             [number(panel::MOTOR_EXTREMES, 0)?, number(panel::LOAD_EXTREMES, 0)?],
         ];
+        let mut deviations = [0.0; 4];
+        for (to, key) in deviations.iter_mut().zip(panel::DEVIATIONS) {
+            *to = number(key, 0)?;
+        }
         let mean = number(panel::MEAN, 0)?;
         let mut order = |n| -> Result<Complex<f64>, BalancingError> {
             Ok(Complex::new(number(panel::COSINE, n)?, number(panel::SINE, n)?))
         };
         let orders = [order(1)?, order(2)?];
-        Ok(Told { from, to, deltas, mean, orders })
+        Ok(Told { from, to, deltas, deviations, mean, orders })
     }
 
     /// Waits for a window of turns.
@@ -93,10 +98,8 @@ impl Told {
     /// What is claimed of it, against the plant in all `seen` ticks of `period` (s). The load swings `ratio` of the
     /// motor at the first order.
     ///
-    /// The noise of the estimate makes the largest speed of a turn too large and the least too small: of its 157 to 204
-    /// samples by 2.75 deviations each on average, were they independent. `extremes` is that as a share of delta, of
-    /// motor and load.
-    pub fn claims(&self, seen: &[Seen], period: f64, ratio: f64, extremes: [f64; 2]) -> Vec<Claim> {
+    /// A delta by a turn's extremes is within three of the standard deviations that are beside it.
+    pub fn claims(&self, seen: &[Seen], period: f64, ratio: f64) -> Vec<Claim> {
         let turns = whole_turns(&seen[self.from..self.to]);
         let ticks = turns.iter().map(|turn| turn.len()).sum::<usize>() as f64;
         let mean_speed = TAU * turns.len() as f64 / (ticks * period);
@@ -113,12 +116,9 @@ impl Told {
             let (least, most) = speeds.fold((f64::INFINITY, 0.0_f64), |(a, b), speed| (a.min(speed), b.max(speed)));
             (most - least) / mean_speed
         };
-        // Of single turns, with the jitter by the governor's noise; and without it, of the mean of all turns from the
-        // window on, in which the load swings alike.
-        let of_turns = |which: usize| {
-            let swings = turns.iter().map(|turn| swing(&mut turn.iter().map(|tick| tick.truth[which])));
-            swings.sum::<f64>() / turns.len() as f64
-        };
+        // Of the last turn; and of the mean of all turns from the window on, in which the load swings alike, without
+        // the jitter by the governor's noise.
+        let of_turn = |which: usize| swing(&mut turns[turns.len() - 1].iter().map(|tick| tick.truth[which]));
         let of_waveform = |which: usize| {
             let mut bins = [(0.0, 0.0); 64];
             for tick in whole_turns(&seen[self.from..]).into_iter().flatten() {
@@ -130,6 +130,7 @@ impl Told {
         let [first, second] = [order(1.0), order(2.0)];
         let [waveform, turn] = self.deltas;
         let off = |told: f64, truth: f64| (told / truth - 1.0).abs();
+        let within = |which: usize| (turn[which] - of_turn(which)).abs() / self.deviations[2 + which];
         vec![
             // A count of the encoder at either end of the turn, of 10,000 at least, and what the governor leaves.
             claim("mean speed of a turn, off as a share", off(self.mean, mean_speed), 3e-4),
@@ -139,8 +140,11 @@ impl Told {
             claim("delta of the load by the waveform, off as a share", off(waveform[1], of_waveform(1)), 0.01 / ratio),
             claim("first order, off as a share", (self.orders[0] - first).norm() / first.norm(), 0.01),
             claim("second order, off as a share of the first", (self.orders[1] - second).norm() / first.norm(), 0.01),
-            claim("delta of the motor by a turn's extremes, off as a share", off(turn[0], of_turns(0)), extremes[0]),
-            claim("delta of the load by a turn's extremes, off as a share", off(turn[1], of_turns(1)), extremes[1]),
+            claim("delta of the motor by a turn's extremes, off in deviations", within(0), 3.0),
+            claim("delta of the load by a turn's extremes, off in deviations", within(1), 3.0),
+            // noise of a twentieth of the swing, as the designs have it, widens it by a quarter, known to a third
+            claim("deviation of the motor's delta, as a share", self.deviations[2] / turn[0], 0.2),
+            claim("deviation of the load's delta, as a share", self.deviations[3] / turn[1], 0.2),
         ]
     }
 }

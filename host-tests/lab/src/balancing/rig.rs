@@ -83,7 +83,7 @@ pub fn rig(start: &GrinderStart) -> Result<(Course, Vec<Claim>), BalancingError>
         vec![claim("error of the shaft torque, rms, over the design's", deviations(seen)[2] / predicted, 1.0)];
     claims.extend(observed(seen, TestRig::RATING.speed));
     // the load's speed deviates by 0.15 rad/s, its delta is 2.9 rad/s; of the motor as in the grinder
-    claims.extend(told.claims(seen, PERIOD, 1.0, [0.06, 0.28]));
+    claims.extend(told.claims(seen, PERIOD, 1.0));
     claims.extend(governed(&seen[braked..swinging], &whole_turns(window))?);
     claims.extend(course.claims());
     Ok((course, claims))

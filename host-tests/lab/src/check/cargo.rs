@@ -1,10 +1,12 @@
 //! Cargo or another program as a step: its exit code, or the sum of its test results.
 
+use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+use super::step::SKIPPED;
 use super::{Count, Failed, Voice};
 use driveline_qemu::children::{Folder, Running};
 use driveline_qemu::clone::workspace;
@@ -18,7 +20,7 @@ pub fn passes(arguments: &[&str], voice: &Voice) -> Result<Count, Failed> {
 /// Runs any program as one check.
 pub fn program_passes(program: &OsStr, arguments: &[&str], voice: &Voice) -> Result<Count, Failed> {
     let (success, _) = run(program, arguments, voice)?;
-    if success { Ok(Count { passed: 1, failed: 0 }) } else { Err(Failed::whole(refused(program, arguments))) }
+    if success { Ok(Count { passed: 1, ..Count::default() }) } else { Err(Failed::whole(refused(program, arguments))) }
 }
 
 /// Runs `cargo test` and counts what its runners report, which is passed on as it comes.
@@ -38,7 +40,7 @@ pub fn ignored_tests(package: &str, program: &str, names: &[&str], voice: &Voice
     let (package, program) = (format!("--package={package}"), format!("--test={program}"));
     let arguments = ["test", &package, &program, "--", "--ignored", "--nocapture"];
     let count = tests(&[&arguments[..], names].concat(), voice)?;
-    if count.passed < names.len() as u64 {
+    if count.passed + count.skipped < names.len() as u64 {
         return Err(Failed { count, message: format!("one of {} is no test", names.join(", ")) });
     }
     Ok(count)
@@ -56,15 +58,34 @@ fn run(program: &OsStr, arguments: &[&str], voice: &Voice) -> Result<(bool, Coun
     // what the compiler and the tests leave when they are stopped goes with the folder
     let folder = Folder::make().map_err(failed)?;
     let mut child = Running::start(command.env("TMPDIR", folder.path())).map_err(failed)?;
-    let mut count = Count::default();
+    let mut counter = Counter::default();
     for line in child.stdout.take().into_iter().flat_map(|stdout| BufReader::new(stdout).split(b'\n')) {
         let line = String::from_utf8_lossy(&line.map_err(failed)?).into_owned();
         voice.say(&line);
-        let (passed, failed) = result(&line).unwrap_or((0, 0));
-        count.passed += passed;
-        count.failed += failed;
+        counter.take(&line);
     }
-    Ok((child.wait().map_err(failed)?.success(), count))
+    Ok((child.wait().map_err(failed)?.success(), counter.count))
+}
+
+/// Counts what runners of tests print.
+#[derive(Default)]
+struct Counter {
+    count: Count,
+    /// Names of the present runner's tests that were skipped; one may say so several times.
+    skipped: BTreeSet<String>,
+}
+
+impl Counter {
+    fn take(&mut self, line: &str) {
+        let test = line.split_once(SKIPPED).and_then(|(_, skipped)| skipped.split_once(": "));
+        self.skipped.extend(test.map(|(name, _)| name.to_owned()));
+        if let Some((passed, failed)) = result(line) {
+            let skipped = std::mem::take(&mut self.skipped).len() as u64;
+            self.count.passed += passed.saturating_sub(skipped);
+            self.count.failed += failed;
+            self.count.skipped += skipped;
+        }
+    }
 }
 
 /// Passed and failed in a runner's own summary, `test result: ok. 3 passed; 0 failed; ..`.
@@ -87,7 +108,7 @@ fn line(program: &OsStr, arguments: &[&str]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::result;
+    use super::{Count, Counter, result};
 
     #[test]
     fn a_runners_summary_is_counted() {
@@ -95,5 +116,24 @@ mod tests {
         assert_eq!(result(ok), Some((12, 0)));
         assert_eq!(result("test result: FAILED. 3 passed; 2 failed; 0 ignored"), Some((3, 2)));
         assert_eq!(result("test result_of_something ... ok"), None);
+    }
+
+    /// A runner calls a test passed that returns early; two lines of a test are one, of two runners' two.
+    #[test]
+    fn a_skipped_test_is_not_a_passed_one() {
+        let mut counter = Counter::default();
+        let ended = "test result: ok. 12 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.00s";
+        for line in [
+            "test wheel::one ... skipped: wheel::one: no first.csv",
+            "skipped: wheel::one: no second.csv",
+            "skipped: wheel::two: no compiler: it is not on the path",
+            "skipped: Chromium is not installed",
+            ended,
+            "skipped: wheel::two: no compiler",
+            ended,
+        ] {
+            counter.take(line);
+        }
+        assert_eq!(counter.count, Count { passed: 10 + 11, failed: 0, skipped: 3 });
     }
 }

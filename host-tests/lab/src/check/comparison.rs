@@ -99,7 +99,7 @@ impl Comparison {
         let faults = self.faults();
         let figures = self.rows.iter().flat_map(|row| &row.figures);
         let passed = figures.filter(|figure| figure.budget.is_some() && !figure.is_over()).count() as u64;
-        let count = Count { passed, failed: faults.len() as u64 };
+        let count = Count { passed, failed: faults.len() as u64, skipped: 0 };
         if faults.is_empty() { Ok(count) } else { Err((count, faults.join("\n"))) }
     }
 }

@@ -69,5 +69,5 @@ impl Left {
 
 /// The count of what was done.
 pub(super) fn passed<T>(done: &[T]) -> Count {
-    Count { passed: done.len() as u64, failed: 0 }
+    Count { passed: done.len() as u64, ..Count::default() }
 }

@@ -138,7 +138,7 @@ fn inputs(voice: &Voice) -> Result<Count, Failed> {
         return Ok(passed(&gaps));
     }
     let failed = faults.len() as u64;
-    let count = Count { passed: gaps.len() as u64 - failed, failed };
+    let count = Count { passed: gaps.len() as u64 - failed, failed, skipped: 0 };
     Err(Failed { count, message: faults.join("\n") })
 }
 

@@ -16,7 +16,7 @@ use driveline_report::Table;
 use serde::Serialize;
 
 pub use long::LONG;
-pub use step::{Count, Step};
+pub use step::{Count, Step, skip};
 pub use steps::STEPS;
 
 use clock::{Clock, Took};
@@ -79,7 +79,7 @@ pub enum CheckError {
 }
 
 /// Runs the steps up to the first failure, or all long runs; each result is handed on to be kept. Says each with its
-/// time, and at the end the closing line `N passed, N failed`.
+/// time, and at the end the closing line `N passed, N failed`, with `, N skipped` where tests were skipped.
 ///
 /// # Errors
 /// No such step, a step that failed, a result that cannot be kept.
@@ -133,31 +133,43 @@ fn once(step: &Step, voice: &Voice) -> Done {
 
 /// The steps with what they took, and the closing line.
 fn close(all: &[Done], voice: &Voice) {
-    let passed: u64 = all.iter().map(|done| done.count.passed).sum();
-    let failed: u64 = all.iter().map(|done| done.count.failed).sum();
+    let Count { passed, failed, skipped } = sum(all);
     voice.say(times(all).to_string().trim_end());
     if voice.json {
-        println!("{}", serde_json::json!({ "passed": passed, "failed": failed }));
+        println!("{}", serde_json::json!({ "passed": passed, "failed": failed, "skipped": skipped }));
     } else {
-        println!("{passed} passed, {failed} failed");
+        println!("{}", closing(sum(all)));
     }
+}
+
+/// The closing line.
+fn closing(Count { passed, failed, skipped }: Count) -> String {
+    let skipped = if skipped == 0 { String::new() } else { format!(", {skipped} skipped") };
+    format!("{passed} passed, {failed} failed{skipped}")
+}
+
+fn sum(all: &[Done]) -> Count {
+    all.iter().fold(Count::default(), |sum, Done { count, .. }| Count {
+        passed: sum.passed + count.passed,
+        failed: sum.failed + count.failed,
+        skipped: sum.skipped + count.skipped,
+    })
 }
 
 /// What each step took, and their sum.
 fn times(all: &[Done]) -> Table {
-    let mut table = Table::new(["step", "passed", "failed", "wall s", "processor s"]);
-    let mut row = |name: &str, Count { passed, failed }, took: Took| {
+    let mut table = Table::new(["step", "passed", "failed", "skipped", "wall s", "processor s"]);
+    let mut row = |name: &str, Count { passed, failed, skipped }, took: Took| {
         let processor = took.processor_seconds.map_or_else(String::new, |seconds| format!("{seconds:.1}"));
         let seconds = format!("{:.1}", took.seconds);
-        table.row([name.to_owned(), passed.to_string(), failed.to_string(), seconds, processor]);
+        let counts = [passed, failed, skipped].map(|count| count.to_string());
+        table.row([name.to_owned()].into_iter().chain(counts).chain([seconds, processor]));
     };
     for done in all {
         row(done.step, done.count, done.took);
     }
-    let sum = |of: fn(&Done) -> u64| all.iter().map(of).sum();
-    let count = Count { passed: sum(|done| done.count.passed), failed: sum(|done| done.count.failed) };
     let seconds = all.iter().map(|done| done.took.seconds).sum();
     let processor_seconds = all.iter().map(|done| done.took.processor_seconds).sum();
-    row("all", count, Took { seconds, processor_seconds });
+    row("all", sum(all), Took { seconds, processor_seconds });
     table
 }

@@ -12,6 +12,20 @@ pub struct Count {
     pub passed: u64,
     /// Checks that failed.
     pub failed: u64,
+    /// Tests that could not be run, as what they need is not there; none of them is among the passed ones.
+    pub skipped: u64,
+}
+
+/// In a line of a test that is skipped, before its name and the reason.
+pub(super) const SKIPPED: &str = "skipped: ";
+
+/// Says that the present test is skipped, and why. The line goes past the capture of the test's runner, which calls the
+/// test passed, so that the check counts it.
+pub fn skip(reason: impl std::fmt::Display) {
+    let thread = std::thread::current();
+    let line = format!("\n{SKIPPED}{}: {reason}\n", thread.name().unwrap_or("a test"));
+    // one write, so that no line of another test is within it; a reader that has gone away needs none
+    let _ = std::io::stdout().write_all(line.as_bytes());
 }
 
 /// A step of the check.
@@ -34,7 +48,7 @@ pub struct Failed {
 impl Failed {
     /// Of a step that is one check.
     pub fn whole(message: impl ToString) -> Self {
-        Failed { count: Count { passed: 0, failed: 1 }, message: message.to_string() }
+        Failed { count: Count { failed: 1, ..Count::default() }, message: message.to_string() }
     }
 }
 

@@ -79,7 +79,7 @@ fn setup_step(voice: &Voice) -> Result<Count, Failed> {
     for name in installed {
         voice.say(&format!("installed {name}"));
     }
-    Ok(Count { passed: 1, failed: 0 })
+    Ok(Count { passed: 1, ..Count::default() })
 }
 
 /// The folders where `cargo fmt` does not follow, since a macro writes the `mod` lines or the crate is in no workspace:
@@ -156,6 +156,7 @@ pub(super) fn together(results: impl IntoIterator<Item = Result<Count, Failed>>)
         };
         sum.passed += count.passed;
         sum.failed += count.failed;
+        sum.skipped += count.skipped;
         messages.extend(message);
     }
     if messages.is_empty() { Ok(sum) } else { Err(Failed { count: sum, message: messages.join("\n") }) }
@@ -198,9 +199,9 @@ fn images(voice: &Voice) -> Result<Count, Failed> {
         }
         image(board, Program::ControlLoop)
     })?;
-    let Count { passed, failed } = passed(&linked);
+    let count = passed(&linked);
     // and the one for the board with a motor
-    Ok(Count { passed: passed + 1, failed })
+    Ok(Count { passed: count.passed + 1, ..count })
 }
 
 /// The self-test of every observer in every number gives the same bits on the host and in QEMU, at one rate; the

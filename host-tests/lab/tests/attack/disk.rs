@@ -6,6 +6,8 @@
 use std::fs;
 use std::process::Command;
 
+use driveline_lab::check::skip;
+
 use super::cases::{frames, sources};
 use super::run::{Place, wrong};
 
@@ -113,7 +115,7 @@ fn full_standard_output_is_said() {
         let mut command = limited(&place, 1_000_000, line);
         let output = fs::OpenOptions::new().write(true).open("/dev/full");
         let Ok(output) = output else {
-            println!("skipped: this system has no /dev/full");
+            skip("this system has no /dev/full");
             return;
         };
         let ended = command.stdout(output).output().unwrap();

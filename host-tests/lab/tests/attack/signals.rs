@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+use driveline_lab::check::skip;
 use driveline_qemu::clone::workspace;
 use rustix::process::{Pid, Signal, kill_process};
 
@@ -89,7 +90,7 @@ fn a_signal_ends_a_watch_and_a_campaign() {
 #[ignore = "minutes"]
 fn signals_at_fifty_moments() {
     if !Path::new("/proc/self/environ").exists() {
-        println!("skipped: this system has no /proc, where the processes that are left would be found");
+        skip("this system has no /proc, where the processes that are left would be found");
         return;
     }
     // the images are built before, so that most moments are within the runs

@@ -19,6 +19,7 @@ use driveline_closed_loop::units::Units;
 use driveline_firmware::Words;
 use driveline_firmware::scene::composed::OverWords;
 use driveline_firmware::scene::{Input, Output};
+use driveline_lab::check::skip;
 use driveline_lab::drivetrains::hoist as scene;
 use driveline_qemu::link::Emulator;
 use driveline_qemu::setup::cargo;
@@ -145,7 +146,7 @@ fn links(compiler: &str, flags: &[&str]) -> bool {
     let ended = Command::new(compiler).args(flags).arg(source).arg("-o").arg(program).output();
     let linked = ended.is_ok_and(|ended| ended.status.success());
     if !linked {
-        println!("skipped: {compiler} with {} is not there", flags.join(" "));
+        skip(format!("{compiler} with {} is not there", flags.join(" ")));
     }
     linked
 }
@@ -224,13 +225,13 @@ fn linker() -> PathBuf {
 #[test]
 fn the_library_in_qemu_gives_the_bits_of_rust_and_takes_few_instructions_more() {
     let Some(emulator) = Emulator::find() else {
-        println!("skipped: QEMU for Arm is not there");
+        skip("QEMU for Arm is not there");
         return;
     };
     let there = |name: &&str| {
         let is_there = Command::new(name).arg("--version").output().is_ok();
         if !is_there {
-            println!("skipped: {name} is not on the path");
+            skip(format!("{name} is not on the path"));
         }
         is_there
     };

@@ -19,7 +19,7 @@ pub struct PartOptions {
     /// Optional parts, separated by commas
     #[arg(long, value_name = "PART,...", value_delimiter = ',')]
     pub parts: Vec<Part>,
-    /// Largest sample of a vibration sensor that is not clipped, in its unit; for `phasors`
+    /// End of the range of a vibration sensor, where a sample is clipped, in its unit; for `phasors`
     #[arg(long, value_name = "VALUE")]
     pub vibration_limit: Option<f64>,
 }

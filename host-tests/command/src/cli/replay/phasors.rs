@@ -35,7 +35,7 @@ pub struct PhasorOptions {
     #[arg(long, value_name = "TURNS", default_value_t = 8, conflicts_with_all = ["machine", "teeth", "fluctuation"],
         value_parser = clap::value_parser!(u32).range(1..=100))]
     turns: u32,
-    /// End of the sensor's range: a sample beyond it is clipped [unit of the column]
+    /// End of the sensor's range: a sample there or beyond is clipped [unit of the column]
     #[arg(long, value_name = "VALUE", conflicts_with_all = ["machine", "teeth", "fluctuation"])]
     range: Option<f64>,
 }

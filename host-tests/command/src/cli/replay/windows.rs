@@ -10,7 +10,7 @@ use driveline_report::format::{percent, significant};
 use driveline_report::{Fact, Figure, Section, Sheet, Table};
 use serde_json::{Value, json};
 
-use crate::replay::window::{Windowed, Windows};
+use crate::replay::window::{Windowed, Windows, is_known};
 
 /// Windows in a printed table at most; all of them are in the table of `--csv` and in JSON.
 pub const PRINTED: usize = 20;
@@ -71,6 +71,7 @@ pub fn table(windows: &[Windowed]) -> Table {
         "cycles",
         "speed r/min",
         "delta",
+        "deviation",
         "dominant order",
         "residual deg",
         "spread deg",
@@ -87,18 +88,23 @@ pub fn table(windows: &[Windowed]) -> Table {
                     cycles,
                     significant(per_minute(ripple)),
                     significant(ripple.motor.delta),
+                    significant(ripple.motor.deviation),
                     format!("{order}: {}", percent(amplitude)),
                     significant(ripple.quality.residue.to_degrees()),
                     match ripple.quality.spread {
                         0.0 => "none".to_owned(),
                         spread => significant(spread.to_degrees()),
                     },
-                    doubt.map_or_else(|| "yes".to_owned(), |doubt| format!("doubtful: {doubt}")),
+                    match doubt {
+                        Some(doubt) => format!("doubtful: {doubt}"),
+                        None if is_known(ripple) => "yes".to_owned(),
+                        None => "the speed alone: three deviations are above 5 % of delta".to_owned(),
+                    },
                 ]);
             }
             Err(unusable) => {
                 let none = || "none".to_owned();
-                table.row([until, cycles, none(), none(), none(), none(), none(), format!("no: {unusable}")]);
+                table.row([until, cycles, none(), none(), none(), none(), none(), none(), format!("no: {unusable}")]);
             }
         }
     }
@@ -114,11 +120,13 @@ pub fn as_json(window: &Windowed) -> Value {
             "speed_by_time": ripple.mean,
             "acceleration": ripple.acceleration,
             "delta": ripple.motor.delta,
+            "deviation": ripple.motor.deviation,
             "orders": fitted(ripple).iter().map(|order| {
                 json!({ "amplitude": order.amplitude() / ripple.speed.mean.abs(), "phase": order.phase() })
             }).collect::<Vec<_>>(),
             "residue": ripple.quality.residue,
             "doubtful": window.doubt.is_some(),
+            "delta_known": is_known(ripple),
             "spread": ripple.quality.spread,
             "missed": ripple.quality.missed,
         }),
@@ -127,22 +135,24 @@ pub fn as_json(window: &Windowed) -> Value {
 }
 
 pub fn csv(windows: &[Windowed]) -> String {
-    let mut text =
-        String::from("until_s,cycles,speed_rad_s,acceleration_rad_s2,delta,residue_rad,spread_rad,doubtful\n");
+    let mut text = String::from(
+        "until_s,cycles,speed_rad_s,acceleration_rad_s2,delta,deviation,residue_rad,spread_rad,doubtful\n",
+    );
     for Windowed { until, cycles, ripple, doubt } in windows {
         // writing to a string cannot fail
         let _ = write!(text, "{until:.6},{cycles}");
         let _ = match ripple {
             Ok(Ripple { speed, acceleration, motor, quality, .. }) => {
-                let (delta, residue, spread) = (motor.delta, quality.residue, quality.spread);
+                let (residue, spread) = (quality.residue, quality.spread);
+                let (delta, deviation) = (motor.delta, motor.deviation);
                 let doubtful = u8::from(doubt.is_some());
                 writeln!(
                     text,
-                    ",{:.6e},{acceleration:.6e},{delta:.6e},{residue:.6e},{spread:.6e},{doubtful}",
+                    ",{:.6e},{acceleration:.6e},{delta:.6e},{deviation:.6e},{residue:.6e},{spread:.6e},{doubtful}",
                     speed.mean
                 )
             }
-            Err(_) => writeln!(text, ",,,,,,"),
+            Err(_) => writeln!(text, ",,,,,,,"),
         };
     }
     text
