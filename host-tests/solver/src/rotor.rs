@@ -33,11 +33,13 @@
 //! # Ok::<(), driveline_solver::rotor::RotorError>(())
 //! ```
 //!
-//! - [`FlexibleRotor`] and [`RigidRotor`] describe, [`Model`] holds the equations and answers at a constant speed;
-//! - [`Modal`] has the natural whirls, the Campbell diagram and the critical speeds;
+//! - [`FlexibleRotor`] and [`RigidRotor`] describe, [`Model`] holds the equations and answers at a constant speed,
+//!   with the natural whirls, the Campbell diagram and the critical speeds;
+//! - [`Modal`] has the natural vibrations at rest, all of them or the lowest;
 //! - [`Whirl`] runs in time, in lock-step with a spin; [`converge`] proves a run by another integrator;
 //! - [`Spin`] turns the shaft, with ripple; [`Transducer`] is what a sensor makes of the truth.
 
+mod band;
 mod beam;
 mod bearing;
 pub mod converge;
@@ -47,6 +49,7 @@ mod flexible;
 mod material;
 mod modal;
 mod model;
+mod pencil;
 mod polar;
 mod rigid;
 mod spin;

@@ -19,7 +19,7 @@ use driveline_solver::rotor::{Critical, Natural, Polar, RotorError, WhirlSense};
 use nalgebra::Complex;
 
 use balancing::Balanced;
-use peak::{Peak, peaks, rpm};
+use peak::{Peak, highest, peaks, rpm};
 
 /// Find critical speeds of a rotor, its natural whirls over the speed, its vibration by unbalance, and the weights of
 /// modal balancing.
@@ -48,8 +48,6 @@ const SPEEDS: usize = 61;
 const POINTS: usize = 501;
 /// Whirls that are followed.
 const WHIRLS: usize = 8;
-/// Vibrations that the diagram is made of: what lies above the 32nd moves the lowest eight by less than a line's width.
-const KEPT: usize = 32;
 
 /// Result of the command.
 #[derive(Debug, Serialize)]
@@ -99,13 +97,14 @@ impl Rotor {
     fn found(&self, rotor: &RotorFile) -> Result<(Found, Vec<Response>), Failure> {
         let failed = |error: RotorError| Failure::failed(error.to_string());
         let own = rotor.unbalances();
-        let (response, peaks) = response(rotor, &own, &own).map_err(failed)?;
+        let speeds = steps(rotor);
+        let (response, peaks) = response(rotor, &speeds, &own, &own).map_err(failed)?;
         let mut found = find(rotor, peaks).map_err(failed)?;
         let mut responses = vec![response];
         if let Some(plan) = &rotor.balancing {
             let fault = |fault| Failure::failed(format!("{}: {fault}", self.file.display()));
             let (mut balanced, unbalance) = Balanced::of(rotor, plan).map_err(fault)?;
-            let (with_weights, peaks) = self::response(rotor, &unbalance, &own).map_err(failed)?;
+            let (with_weights, peaks) = self::response(rotor, &speeds, &unbalance, &own).map_err(failed)?;
             balanced.peaks = peaks;
             found.balancing = Some(balanced);
             responses.push(with_weights);
@@ -115,19 +114,15 @@ impl Rotor {
 }
 
 fn find(rotor: &RotorFile, peaks: Vec<Peak>) -> Result<Found, RotorError> {
-    let criticals = rotor.modal.criticals();
-    let beyond = criticals.iter().position(|critical| critical.speed > rotor.highest);
-    let count = beyond.map_or(criticals.len(), |first| first + 1);
-    let kept = rotor.modal.lowest(KEPT);
     let speeds: Vec<f64> = (0..SPEEDS).map(|k| rotor.highest * k as f64 / (SPEEDS - 1) as f64).collect();
-    let mut campbell = kept.campbell(&speeds, WHIRLS)?;
+    let mut campbell = rotor.model.campbell(&speeds, WHIRLS)?;
     if rotor.conservative {
         // roundings, half of which would read as instability
         campbell.whirls.iter_mut().flatten().for_each(|whirl| whirl.damping_ratio = 0.0);
     }
     Ok(Found {
         name: rotor.name.clone(),
-        critical_speeds: criticals[..count].to_vec(),
+        critical_speeds: rotor.model.criticals(rotor.highest),
         speeds,
         whirls: campbell.whirls,
         peaks,
@@ -135,56 +130,75 @@ fn find(rotor: &RotorFile, peaks: Vec<Peak>) -> Result<Found, RotorError> {
     })
 }
 
+/// Half-width over its speed below which a resonance is one without damping: rounding.
+const UNDAMPED: f64 = 1e-9;
+/// How far beside a resonance without damping the vibration is taken, above rounding of many elements.
+const BESIDE: f64 = 1e-6;
+
 /// Vibration with this unbalance at every node (kg m) of a rotor that has its own.
 fn response(
     rotor: &RotorFile,
+    (speeds, undamped): &(Vec<f64>, Vec<f64>),
     unbalance: &[Complex<f64>],
     own: &[Complex<f64>],
 ) -> Result<(Response, Vec<Peak>), RotorError> {
-    let mut speeds = steps(rotor.highest);
-    // the top of a narrow peak, too; an undamped one has none
-    let criticals = rotor.modal.criticals();
-    for speed in criticals.iter().map(|critical| critical.speed * (1.0 + 1e-9)).filter(|&at| at <= rotor.highest) {
-        if rotor.conservative {
+    let at = |speed| rotor.model.response(speed, unbalance);
+    let mut all = speeds.iter().map(|&speed| Ok((speed, at(speed)?))).collect::<Result<Vec<_>, RotorError>>()?;
+    // where the vibration has no bound: it grows with the nearness of the speed, 300 times but for rounding
+    let mut unbounded = vec![None; rotor.sensors.len()];
+    for &speed in undamped {
+        let [near, far] = [at(speed * (1.0 + BESIDE))?, at(speed * (1.0 + 3e2 * BESIDE))?];
+        if unbalance != own {
             // of an undamped whirl that was balanced the rounding of its shape, below 1e-6, would be left
-            let [now, own] = [unbalance, own].map(|unbalance| rotor.model.response(speed, unbalance));
-            if now?.iter().zip(&own?).all(|(now, own)| now.norm() <= 1e-5 * own.norm()) {
+            let own = rotor.model.response(speed * (1.0 + BESIDE), own)?;
+            if near.iter().zip(&own).all(|(now, own)| now.norm() <= 1e-5 * own.norm()) {
                 continue;
             }
         }
-        speeds.push(speed);
-    }
-    speeds.sort_by(f64::total_cmp);
-    let mut amplitudes = vec![Vec::with_capacity(speeds.len()); rotor.sensors.len()];
-    let mut peaks: Vec<Peak> = Vec::new();
-    for &speed in &speeds {
-        let vibration = rotor.model.response(speed, unbalance)?;
-        for (sensor, (x, course)) in vibration.iter().zip(&mut amplitudes).enumerate() {
-            let (amplitude, phase) = Polar::of(*x);
-            course.push(amplitude);
-            let (node, angle) = rotor.sensors[sensor];
-            let peak = Peak { node, angle, speed, amplitude, phase };
-            match peaks.get_mut(sensor) {
-                Some(highest) if highest.amplitude < amplitude => *highest = peak,
-                Some(_) => {}
-                None => peaks.push(peak),
+        for (sensor, highest) in unbounded.iter_mut().enumerate() {
+            let larger = highest.is_none_or(|(_, amplitude)| near[sensor].norm() > amplitude);
+            if near[sensor].norm() > 10.0 * far[sensor].norm() && larger {
+                *highest = Some((speed, near[sensor].norm()));
             }
         }
+        all.push((speed * (1.0 + BESIDE), near));
     }
-    if rotor.conservative {
-        // a resonance grows with the nearness of the speed, here a thousandfold but for rounding of either speed
-        for (sensor, peak) in peaks.iter_mut().enumerate() {
-            let beside = rotor.model.response(peak.speed * (1.0 + 1e-6), unbalance)?;
-            if peak.amplitude > 10.0 * beside[sensor].norm() {
-                peak.amplitude = f64::INFINITY;
-            }
-        }
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut peaks = Vec::with_capacity(rotor.sensors.len());
+    for (sensor, &(node, angle)) in rotor.sensors.iter().enumerate() {
+        let (speed, vibration) = match unbounded[sensor] {
+            Some((speed, _)) => (speed, Complex::new(f64::INFINITY, 0.0)),
+            None => highest(&all, sensor, at)?,
+        };
+        let (amplitude, phase) = Polar::of(vibration);
+        peaks.push(Peak { node, angle, speed, amplitude, phase });
     }
-    Ok((Response { speeds, amplitudes }, peaks))
+    let amplitudes =
+        (0..rotor.sensors.len()).map(|sensor| all.iter().map(|(_, at)| at[sensor].norm()).collect()).collect();
+    Ok((Response { speeds: all.into_iter().map(|(speed, _)| speed).collect(), amplitudes }, peaks))
 }
 
-/// The speeds of the response up to the highest, which rounding does not pass.
-fn steps(highest: f64) -> Vec<f64> {
+/// The speeds of the response up to the highest, which rounding does not pass, with those across each resonance that
+/// damping leaves narrow; and resonances without damping.
+fn steps(rotor: &RotorFile) -> (Vec<f64>, Vec<f64>) {
+    let (undamped, damped): (Vec<_>, Vec<_>) = rotor
+        .model
+        .resonances(rotor.highest)
+        .into_iter()
+        .partition(|&(speed, width)| rotor.conservative || width <= UNDAMPED * speed);
+    let mut speeds = even(rotor.highest);
+    for (speed, width) in damped {
+        // a quarter of a half-width beside its top it has lost 3 %
+        speeds.extend((-12..=12).map(|k| speed + width * 0.25 * f64::from(k)));
+    }
+    speeds.retain(|&speed| speed > 0.0 && speed <= rotor.highest);
+    speeds.sort_by(f64::total_cmp);
+    speeds.dedup();
+    let undamped = undamped.into_iter().map(|(speed, _)| speed).filter(|&at| at * (1.0 + BESIDE) <= rotor.highest);
+    (speeds, undamped.collect())
+}
+
+fn even(highest: f64) -> Vec<f64> {
     (1..POINTS).map(|k| (highest * k as f64 / (POINTS - 1) as f64).min(highest)).collect()
 }
 
@@ -373,13 +387,13 @@ fn campbell(found: &Found) -> Lines {
 
 #[cfg(test)]
 mod tests {
-    use super::{POINTS, steps};
+    use super::{POINTS, even};
 
     #[test]
     fn the_highest_speed_is_the_last_step() {
         for number in 1..20_000 {
             let highest = f64::from(number) * 0.037;
-            let speeds = steps(highest);
+            let speeds = even(highest);
             let last = speeds[POINTS - 2];
             // one rounding below at most, and never above: what is above is left out
             assert!(last <= highest && last >= highest.next_down(), "{last} {highest}");

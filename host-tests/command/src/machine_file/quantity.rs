@@ -94,9 +94,9 @@ impl Quantity {
     /// Poisson's ratio.
     pub const POISSON: Self = Quantity { least: 1e-6, most: 0.5, zero: true, ..positive("") };
     /// Equal elements that a piece of shaft is cut into.
-    pub const PIECES: Self = Quantity { least: 1.0, most: 64.0, whole: true, ..positive("") };
+    pub const PIECES: Self = Quantity { least: 1.0, most: 400.0, whole: true, ..positive("") };
     /// A node of the shaft.
-    pub const NODE: Self = Quantity { least: 1.0, most: 64.0, zero: true, whole: true, unit: "" };
+    pub const NODE: Self = Quantity { least: 1.0, most: 400.0, zero: true, whole: true, unit: "" };
     /// Modes of a rotor to be balanced.
     pub const MODES: Self = Quantity { least: 1.0, most: 8.0, zero: true, whole: true, unit: "" };
     /// Stiffness of a bearing.

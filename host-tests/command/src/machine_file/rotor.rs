@@ -11,10 +11,10 @@ use super::quantity::Quantity;
 use super::read::{document, load, named, section};
 use super::source::Source;
 use super::table::Table;
-use driveline_solver::rotor::{Bearing, Direction, Disc, FlexibleRotor, Material, Modal, Model, Polar, Section};
+use driveline_solver::rotor::{Bearing, Direction, Disc, FlexibleRotor, Material, Model, Polar, Section};
 
-/// Most elements of a shaft: 260 coordinates.
-const MOST: usize = 64;
+/// Most elements of a shaft: 1,604 coordinates.
+const MOST: usize = 400;
 
 /// A rotor as its file describes it.
 ///
@@ -74,8 +74,6 @@ pub struct RotorFile {
     pub places: Vec<f64>,
     /// The equations; its stations are all nodes.
     pub model: Model,
-    /// Its natural vibrations.
-    pub modal: Modal,
     /// Node, unbalance (kg m).
     pub unbalance: Vec<(usize, Complex<f64>)>,
     /// Node and angle (degrees) of each sensor.
@@ -199,7 +197,7 @@ pub fn parse_rotor(name: &str, text: &str) -> Result<RotorFile, Diagnostic> {
         )
     };
     let model = rotor.build().map_err(whole)?;
-    let modal = Modal::of(&model).map_err(whole)?;
+    model.held().map_err(whole)?;
     let balancing = match planes {
         Some((planes, count)) => {
             if unbalance.is_empty() {
@@ -209,11 +207,10 @@ pub fn parse_rotor(name: &str, text: &str) -> Result<RotorFile, Diagnostic> {
                 let expected = "bearings with one stiffness in all directions, or balancing by influence coefficients";
                 return Err(root.wrong("balancing", expected));
             }
-            let mut modes = modal.forward_shapes();
+            let modes = model.forward_shapes(count);
             if modes.len() < count {
                 return Err(root.wrong("balancing", format!("`modes` up to {}, all that the rotor has", modes.len())));
             }
-            modes.truncate(count);
             Some(Balancing { planes, modes })
         }
         None => None,
@@ -221,26 +218,13 @@ pub fn parse_rotor(name: &str, text: &str) -> Result<RotorFile, Diagnostic> {
     root.finish()?;
     let (places, centre) = (rotor.places(), rotor.centre());
     let name = rotor_name;
-    Ok(RotorFile {
-        name,
-        places,
-        model,
-        modal,
-        unbalance,
-        sensors,
-        discs,
-        bearings,
-        conservative,
-        centre,
-        balancing,
-        highest,
-    })
+    Ok(RotorFile { name, places, model, unbalance, sensors, discs, bearings, conservative, centre, balancing, highest })
 }
 
 /// Nodes of the planes, and how many modes they are to balance.
 fn balancing(root: &mut Table<'_>, last: usize) -> Result<Option<(Vec<usize>, usize)>, Diagnostic> {
     let Some(mut table) = root.table_if("balancing")? else { return Ok(None) };
-    // `NODE` allows whole numbers up to 64 only.
+    // `NODE` allows whole numbers up to 400 only.
     let planes: Vec<usize> = table.numbers("planes", Quantity::NODE)?.into_iter().map(|node| node as usize).collect();
     let own = |(index, node): (usize, &usize)| *node <= last && !planes[..index].contains(node);
     if planes.len() > PLANES || !planes.iter().enumerate().all(own) {
@@ -276,7 +260,7 @@ fn shaft(source: Source<'_>, root: &mut Table<'_>, material: Material) -> Result
         if bore >= outer {
             return Err(table.wrong("bore", "a bore smaller than the `diameter`"));
         }
-        // `PIECES` allows whole numbers up to 64 only.
+        // `PIECES` allows whole numbers up to 400 only.
         let pieces = table.number_or("pieces", Quantity::PIECES, 1.0)? as usize;
         table.finish()?;
         count += pieces;
@@ -291,7 +275,7 @@ fn shaft(source: Source<'_>, root: &mut Table<'_>, material: Material) -> Result
 }
 
 fn node(table: &mut Table<'_>, last: usize) -> Result<usize, Diagnostic> {
-    // `NODE` allows whole numbers up to 64 only.
+    // `NODE` allows whole numbers up to 400 only.
     let node = table.number("node", Quantity::NODE)? as usize;
     if node <= last { Ok(node) } else { Err(table.wrong("node", format!("a node of the shaft, 0 to {last}"))) }
 }

@@ -58,6 +58,14 @@ impl Section {
         12.0 * young * self.second_moment() / (shear_stiffness * self.length.powi(2))
     }
 
+    /// The strain energy as `1/2 k e^2`: of the bending that both ends share, `e = s2 - s1`, and of what shears the
+    /// element, `e = (s1 + s2)/2 - (w2 - w1)/l`. Stiffness, and `e` by the coordinates.
+    pub(super) fn strains(&self) -> [(f64, [f64; 4]); 2] {
+        let bending = self.material.young * self.second_moment() / self.length;
+        let per_length = self.length.recip();
+        [(bending, [0.0, -1.0, 0.0, 1.0]), (12.0 * bending / (1.0 + self.shear()), [per_length, 0.5, -per_length, 0.5])]
+    }
+
     /// The matrices.
     pub(super) fn beam(&self) -> Beam {
         let (l, p) = (self.length, self.shear());

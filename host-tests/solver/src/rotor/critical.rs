@@ -1,9 +1,10 @@
 //! Natural whirls over the speed, and where the unbalance meets them.
 
-use nalgebra::{Complex, DMatrix, DVector, DVectorView, RowDVector};
+use nalgebra::{Complex, DMatrix};
 
 use super::error::RotorError;
-use super::modal::Modal;
+use super::model::{Model, entries};
+use super::pencil::{Motion, Pencil};
 
 /// Which way a whirl goes round.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -53,84 +54,105 @@ const MIXED: f64 = 0.9;
 /// Share of a critical speed within which others count as the same, far above rounding.
 const ALIKE: f64 = 1e-6;
 
-impl Modal {
-    /// Critical speeds, lowest first: speeds at which the undamped rotor whirls once a turn. The stiffness counts by
-    /// its symmetric part.
+/// Damping ratio from which a motion counts as a decay: of such a one e^-140 is left after a turn.
+const DECAY: f64 = 0.999;
+/// Half-width of a resonance over the highest speed from which even steps find its top.
+const WIDE: f64 = 0.02;
+
+/// Deflections along `x` and `y` of a station, by coordinates.
+type Station = [Vec<(usize, f64)>; 2];
+type Shape = Vec<Complex<f64>>;
+
+impl Model {
+    /// Critical speeds up to a highest one (rad/s) and the first beyond, lowest first: speeds at which the undamped
+    /// rotor whirls once a turn. The stiffness counts by its symmetric part.
     ///
-    /// From `(w^2 - Omega^2 (1 - i G)) eta = 0` of the whirl `exp(i Omega t)`: with `eta = zeta/w`, the positive
-    /// eigenvalues of the Hermitian `(1 - i G)/(w w)` are `1/Omega^2`.
+    /// From `(K - Omega^2 (M - i G)) q = 0` of the whirl `q exp(i Omega t)`.
     #[must_use]
-    pub fn criticals(&self) -> Vec<Critical> {
-        self.synchronous().into_iter().map(|(critical, _)| critical).collect()
+    pub fn criticals(&self, highest: f64) -> Vec<Critical> {
+        let mut all: Vec<Critical> = self.synchronous(highest, 1).into_iter().map(|(critical, _)| critical).collect();
+        let within = all.iter().take_while(|critical| critical.speed <= highest).count();
+        all.truncate(within + 1);
+        all
     }
 
-    /// Critical speeds (rad/s) of the forward whirls, lowest first, each with the deflection at every station, the
-    /// largest of which is 1: the shapes of modal balancing. On supports that are alike in all directions a whirl is
-    /// round and in one plane, and these shapes are those in which unbalance bends the undamped rotor.
+    /// The lowest `count` critical speeds (rad/s) of the forward whirls, lowest first, each with the deflection at
+    /// every station, the largest of which is 1: the shapes of modal balancing. On supports that are alike in all
+    /// directions a whirl is round and in one plane, and these shapes are those in which unbalance bends the undamped
+    /// rotor.
     #[must_use]
-    pub fn forward_shapes(&self) -> Vec<(f64, Vec<f64>)> {
-        let forward = self.synchronous().into_iter().filter(|(critical, _)| critical.sense == WhirlSense::Forward);
-        let scaled = |(critical, shape): (Critical, DVector<Complex<f64>>)| {
-            let whirls: Vec<Complex<f64>> = self.stations.iter().map(|rows| circles(rows, &shape)[0]).collect();
+    pub fn forward_shapes(&self, count: usize) -> Vec<(f64, Vec<f64>)> {
+        let stations = self.sparse();
+        let mut beyond = 2 * count + 2;
+        let forward = loop {
+            let mut all = self.synchronous(0.0, beyond);
+            let whole = all.len() < beyond;
+            all.retain(|(critical, _)| critical.sense == WhirlSense::Forward);
+            if whole || all.len() >= count {
+                all.truncate(count);
+                break all;
+            }
+            beyond *= 2;
+        };
+        let scaled = |(critical, shape): (Critical, Shape)| {
+            let whirls: Vec<Complex<f64>> = stations.iter().map(|rows| circles(rows, &shape)[0]).collect();
             let largest = whirls.iter().copied().max_by(|a, b| a.norm().total_cmp(&b.norm()));
             let largest = largest.unwrap_or(Complex::new(1.0, 0.0));
             (critical.speed, whirls.iter().map(|whirl| (whirl / largest).re).collect())
         };
-        forward.map(scaled).collect()
+        forward.into_iter().map(scaled).collect()
     }
 
-    /// Critical speeds, lowest first, with the deflections of their whirls.
-    fn synchronous(&self) -> Vec<(Critical, DVector<Complex<f64>>)> {
-        let r = self.count();
-        let w = &self.frequency;
-        let hermitian = DMatrix::from_fn(r, r, |i, j| {
-            let unity = if i == j { 1.0 } else { 0.0 };
-            // skew by its half, so that rounding leaves it Hermitian
-            let skew = 0.5 * (self.gyroscopic[(i, j)] - self.gyroscopic[(j, i)]);
-            Complex::new(unity, -skew) / (w[i] * w[j])
+    /// Critical speeds up to a highest one and some beyond, lowest first, with the deflections of their whirls.
+    fn synchronous(&self, highest: f64, beyond: usize) -> Vec<(Critical, Shape)> {
+        let stations = self.sparse();
+        // one more, of which the last may be half of a pair
+        let motions = self.once_a_turn(false).motions(|values, last| {
+            let order = whirling(values, |value| value.im > value.re.abs());
+            let within = order.iter().take_while(|&&k| values[k].im <= highest).count();
+            (last || order.len() > within + beyond).then(|| order.into_iter().take(within + beyond + 1).collect())
         });
-        let eigen = hermitian.symmetric_eigen();
-        let mut all: Vec<(f64, DVector<Complex<f64>>)> = (0..r)
-            .filter(|&k| eigen.eigenvalues[k] > 0.0)
-            .map(|k| {
-                let shape = DVector::from_iterator(r, (0..r).map(|i| eigen.eigenvectors[(i, k)] / w[i]));
-                (eigen.eigenvalues[k].sqrt().recip(), shape)
-            })
-            .collect();
-        all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let groups = all.chunk_by(|a, b| b.0 - a.0 <= ALIKE * a.0);
-        let shapes = groups.flat_map(|group| {
-            let shapes: Vec<_> = group.iter().map(|(_, shape)| shape.clone()).collect();
-            self.apart(&shapes)
-        });
-        let critical = |shape: DVector<Complex<f64>>, speed| (Critical { speed, sense: self.sense(&shape) }, shape);
-        shapes.zip(all.iter().map(|(speed, _)| *speed)).map(|(shape, speed)| critical(shape, speed)).collect()
+        let values = sorted(motions);
+        let speeds: Vec<f64> = values.iter().map(|motion| motion.value.im).collect();
+        let shapes = separated(&stations, values);
+        let critical = |(speed, shape): (f64, Shape)| (Critical { speed, sense: sense(&stations, &shape) }, shape);
+        speeds.into_iter().zip(shapes).map(critical).collect()
     }
 
-    /// Whirls of one frequency, of which any combination is one: those that go round least forward, up to the most.
-    fn apart(&self, shapes: &[DVector<Complex<f64>>]) -> Vec<DVector<Complex<f64>>> {
-        let m = shapes.len();
-        if m == 1 {
-            return shapes.to_vec();
-        }
-        let mut forward = DMatrix::from_element(m, m, Complex::new(0.0, 0.0));
-        for rows in &self.stations {
-            let all: Vec<[Complex<f64>; 2]> = shapes.iter().map(|shape| circles(rows, shape)).collect();
-            for (j, k) in (0..m).flat_map(|j| (0..m).map(move |k| (j, k))) {
-                forward[(j, k)] += all[j][0].conj() * all[k][0] - all[j][1].conj() * all[k][1];
-            }
-        }
-        let turned = forward.symmetric_eigen();
-        let mut order: Vec<usize> = (0..m).collect();
-        order.sort_by(|&j, &k| turned.eigenvalues[j].total_cmp(&turned.eigenvalues[k]));
-        let combined = |k: usize| {
-            let parts = shapes.iter().enumerate().map(|(j, shape)| shape * turned.eigenvectors[(j, k)]);
-            parts.reduce(|sum, part| sum + part).unwrap_or_else(|| shapes[0].clone())
+    /// Speeds (rad/s) up to a highest one at which unbalance may meet a narrow resonance, each with the half-width of
+    /// it: the damped whirls `q exp(i Omega t)` of `(K + i Omega C - Omega^2 (M - i G)) q = 0`, `Omega` complex.
+    /// Resonances of a half-width of more than 2 % of the highest speed may be missing.
+    #[must_use]
+    pub fn resonances(&self, highest: f64) -> Vec<(f64, f64)> {
+        let narrow = |value: Complex<f64>| value.re.abs() <= WIDE * highest && value.im <= highest * (1.0 + WIDE);
+        let motions = self.once_a_turn(true).motions(|values, last| {
+            let order = whirling(values, |value| value.im > value.re.abs() || narrow(value));
+            let beyond = order.iter().copied().find(|&k| values[k].im > highest * (1.0 + WIDE));
+            let mut wanted: Vec<usize> = order.into_iter().filter(|&k| narrow(values[k])).collect();
+            wanted.extend(beyond);
+            (last || beyond.is_some()).then_some(wanted)
+        });
+        let all = sorted(motions).into_iter().filter(|motion| narrow(motion.value));
+        all.map(|motion| (motion.value.im, motion.value.re.abs())).collect()
+    }
+
+    /// `K + lambda C + lambda^2 (M - i G)`, of which `lambda = i Omega` are whirls once a turn.
+    fn once_a_turn(&self, damped: bool) -> Pencil<'_, Complex<f64>> {
+        let stiffness = |i, j| {
+            let [straight, across] = [(i, j), (j, i)].map(|at| self.stiffness[at]);
+            Complex::new(if damped { straight } else { 0.5 * (straight + across) }, 0.0)
         };
-        order.into_iter().map(combined).collect()
+        Pencil {
+            stiffness: self.band(stiffness),
+            damping: self.band(|i, j| Complex::new(if damped { self.damping[(i, j)] } else { 0.0 }, 0.0)),
+            inertia: self.band(|i, j| Complex::new(self.mass[(i, j)], -self.gyroscopic[(i, j)])),
+            strains: &self.strains,
+            symmetric: !damped,
+        }
     }
 
-    /// The `count` lowest natural whirls at each of some speeds (rad/s).
+    /// The `count` lowest natural whirls at each of some speeds (rad/s). A motion that decays at a damping ratio of
+    /// 0.999 or more is none.
     ///
     /// # Errors
     /// A speed that is not finite.
@@ -138,74 +160,112 @@ impl Modal {
         for (index, &speed) in speeds.iter().enumerate() {
             super::error::check("speed", || format!("point {index}"), speed, true, "a finite number")?;
         }
-        let whirls = speeds.iter().map(|&speed| self.naturals(speed, count)).collect();
+        let stations = self.sparse();
+        let whirls = speeds.iter().map(|&speed| self.naturals(&stations, speed, count)).collect();
         Ok(Campbell { speeds: speeds.to_vec(), whirls })
     }
 
-    fn naturals(&self, speed: f64, count: usize) -> Vec<Natural> {
-        let a = self.system(speed);
-        let mut values: Vec<Complex<f64>> = a.complex_eigenvalues().iter().copied().collect();
-        // an overdamped motion does not whirl
-        values.retain(|value| value.im > 1e-9 * value.norm());
-        values.sort_by(|a, b| a.im.total_cmp(&b.im));
-        let groups = values.chunk_by(|a, b| (b - a).norm() <= ALIKE * a.norm());
-        let senses = groups.flat_map(|group| {
-            let shapes = self.shapes(&a, group[0], group.len()).map(|shapes| self.apart(&shapes));
-            let senses = shapes.map(|shapes| shapes.iter().map(|shape| self.sense(shape)).collect());
-            senses.unwrap_or_else(|| vec![WhirlSense::Mixed; group.len()])
+    fn naturals(&self, stations: &[Station], speed: f64, count: usize) -> Vec<Natural> {
+        let pencil = Pencil {
+            stiffness: self.band(|i, j| self.stiffness[(i, j)]),
+            damping: self.band(|i, j| self.damping[(i, j)] + speed * self.gyroscopic[(i, j)]),
+            inertia: self.band(|i, j| self.mass[(i, j)]),
+            strains: &self.strains,
+            symmetric: false,
+        };
+        let whirls = |value: Complex<f64>, from: f64| value.im > 0.0 && -value.re < from * value.norm();
+        let motions = pencil.motions(|values, last| {
+            // so near to a decay, it may turn out to be none
+            let order = whirling(values, |value| whirls(value, 0.5 * (1.0 + DECAY)));
+            // two more: the last may be one of a pair, or a decay
+            (last || order.len() >= count + 2).then(|| order.into_iter().take(count + 2).collect())
         });
-        let natural = |(&value, sense): (&Complex<f64>, WhirlSense)| Natural {
+        let mut motions = sorted(motions);
+        motions.retain(|motion| whirls(motion.value, DECAY));
+        let values: Vec<Complex<f64>> = motions.iter().map(|motion| motion.value).collect();
+        let natural = |(value, shape): (Complex<f64>, Shape)| Natural {
             frequency: value.im,
             undamped: value.norm(),
             damping_ratio: -value.re / value.norm(),
-            sense,
+            sense: sense(stations, &shape),
         };
-        values.iter().zip(senses).take(count).map(natural).collect()
+        values.into_iter().zip(separated(stations, motions)).take(count).map(natural).collect()
     }
 
-    /// The deflections of so many whirls of one eigenvalue, by inverse iteration beside it.
-    fn shapes(&self, a: &DMatrix<f64>, value: Complex<f64>, count: usize) -> Option<Vec<DVector<Complex<f64>>>> {
-        let n = a.nrows();
-        let beside = value * Complex::new(1.0, 1e-9);
-        let system = DMatrix::from_fn(n, n, |i, j| {
-            Complex::new(a[(i, j)], 0.0) - if i == j { beside } else { Complex::new(0.0, 0.0) }
-        })
-        .lu();
-        // as many independent ones, none along an axis
-        let mut vectors = DMatrix::from_fn(n, count, |i, k| Complex::new(1.0, 0.3 + 0.01 * (i * (k + 1)) as f64));
-        for _ in 0..3 {
-            vectors = system.solve(&vectors)?.qr().q();
-        }
-        let r = self.count();
-        let shape =
-            |vector: DVectorView<Complex<f64>>| vector.rows(0, r).zip_map(&self.frequency, |entry, w| entry / w);
-        Some(vectors.column_iter().map(shape).collect())
-    }
-
-    /// Which way a whirl `Re(eta exp(i w t))` goes round at most stations.
-    fn sense(&self, shape: &DVector<Complex<f64>>) -> WhirlSense {
-        let (mut forward, mut backward) = (0.0, 0.0);
-        for rows in &self.stations {
-            let [with, against] = circles(rows, shape);
-            forward += with.norm_sqr();
-            backward += against.norm_sqr();
-        }
-        if backward < MIXED * MIXED * forward {
-            WhirlSense::Forward
-        } else if forward < MIXED * MIXED * backward {
-            WhirlSense::Backward
-        } else {
-            WhirlSense::Mixed
-        }
+    fn sparse(&self) -> Vec<Station> {
+        self.stations.iter().map(|rows| [0, 1].map(|axis| entries(&rows[axis]))).collect()
     }
 }
 
-/// The forward and the backward circle, twice each, of a station in a whirl `Re(eta exp(i w t))`.
-fn circles(rows: &[RowDVector<f64>; 2], shape: &DVector<Complex<f64>>) -> [Complex<f64>; 2] {
-    let [x, y] = [0, 1].map(|axis| {
-        let row = rows[axis].iter().zip(shape.iter());
-        row.map(|(&row, &eta)| eta * row).sum::<Complex<f64>>()
-    });
+/// Indices of the values that are chosen, the lowest frequency first.
+fn whirling(values: &[Complex<f64>], chosen: impl Fn(Complex<f64>) -> bool) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..values.len()).filter(|&k| values[k].im > 0.0 && chosen(values[k])).collect();
+    order.sort_by(|&a, &b| values[a].im.total_cmp(&values[b].im));
+    order
+}
+
+fn sorted(mut motions: Vec<Motion>) -> Vec<Motion> {
+    motions.sort_by(|a, b| a.value.im.total_cmp(&b.value.im));
+    motions
+}
+
+/// The shapes, those of one frequency told apart.
+fn separated(stations: &[Station], motions: Vec<Motion>) -> Vec<Shape> {
+    let alike = |a: &Motion, b: &Motion| (b.value - a.value).norm() <= ALIKE * a.value.norm();
+    let group = |group: &[Motion]| {
+        let shapes: Vec<Shape> = group.iter().map(|motion| motion.shape.clone()).collect();
+        combined(stations, shapes)
+    };
+    motions.chunk_by(alike).flat_map(group).collect()
+}
+
+/// Whirls of one frequency, of which any combination is one: those that go round least forward, up to the most.
+fn combined(stations: &[Station], shapes: Vec<Shape>) -> Vec<Shape> {
+    let m = shapes.len();
+    if m == 1 {
+        return shapes;
+    }
+    // apart from another in the coordinates, so that the combinations are, too
+    let n = shapes[0].len();
+    let independent = DMatrix::from_fn(n, m, |i, k| shapes[k][i]).qr().q();
+    let shapes: Vec<Shape> = independent.column_iter().map(|column| column.iter().copied().collect()).collect();
+    let mut forward = DMatrix::from_element(m, m, Complex::new(0.0, 0.0));
+    for rows in stations {
+        let all: Vec<[Complex<f64>; 2]> = shapes.iter().map(|shape| circles(rows, shape)).collect();
+        for (j, k) in (0..m).flat_map(|j| (0..m).map(move |k| (j, k))) {
+            forward[(j, k)] += all[j][0].conj() * all[k][0] - all[j][1].conj() * all[k][1];
+        }
+    }
+    let turned = forward.symmetric_eigen();
+    let mut order: Vec<usize> = (0..m).collect();
+    order.sort_by(|&j, &k| turned.eigenvalues[j].total_cmp(&turned.eigenvalues[k]));
+    let sum = |k: usize| {
+        let entry = |i: usize| (0..m).map(|j| shapes[j][i] * turned.eigenvectors[(j, k)]).sum();
+        (0..n).map(entry).collect()
+    };
+    order.into_iter().map(sum).collect()
+}
+
+/// Which way a whirl `Re(q exp(i w t))` goes round at most stations.
+fn sense(stations: &[Station], shape: &[Complex<f64>]) -> WhirlSense {
+    let (mut forward, mut backward) = (0.0, 0.0);
+    for rows in stations {
+        let [with, against] = circles(rows, shape);
+        forward += with.norm_sqr();
+        backward += against.norm_sqr();
+    }
+    if backward < MIXED * MIXED * forward {
+        WhirlSense::Forward
+    } else if forward < MIXED * MIXED * backward {
+        WhirlSense::Backward
+    } else {
+        WhirlSense::Mixed
+    }
+}
+
+/// The forward and the backward circle, twice each, of a station in a whirl `Re(q exp(i w t))`.
+fn circles(rows: &Station, shape: &[Complex<f64>]) -> [Complex<f64>; 2] {
+    let [x, y] = [0, 1].map(|axis| rows[axis].iter().map(|&(at, share)| shape[at] * share).sum::<Complex<f64>>());
     // x + i y = f exp(i w t) + b exp(-i w t), 2 f = X + i Y, 2 b* = X - i Y
     let i = Complex::new(0.0, 1.0);
     [x + i * y, x - i * y]

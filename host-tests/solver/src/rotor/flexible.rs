@@ -9,6 +9,7 @@ use super::bearing::Bearing;
 use super::error::{RotorError, check, positive};
 use super::material::Material;
 use super::model::{Direction, Model};
+use super::pencil::Strain;
 
 /// A rigid disc.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -124,11 +125,15 @@ impl FlexibleRotor {
     pub fn build(&self) -> Result<Model, RotorError> {
         self.validate()?;
         let nodes = self.elements.len() + 1;
-        let mut model = Model::empty(OF_NODE * nodes);
+        let mut model = Model::empty(OF_NODE * nodes, 2 * OF_NODE - 1);
         for (index, section) in self.elements.iter().enumerate() {
             let beam = section.beam();
             for plane in 0..2 {
                 let place = |k: usize| OF_NODE * (index + k / 2) + plane + 2 * (k % 2);
+                for (stiffness, turns) in section.strains() {
+                    let motion: Vec<(usize, f64)> = (0..4).map(|k| (place(k), turns[k])).collect();
+                    model.strains.push(Strain { stiffness, force: motion.clone(), motion });
+                }
                 for i in 0..4 {
                     for j in 0..4 {
                         let at = (place(i), place(j));

@@ -29,9 +29,7 @@ impl Modal {
     /// [`RotorError::NotHeld`] where some motion meets no stiffness.
     pub fn of(model: &Model) -> Result<Self, RotorError> {
         let symmetric = (&model.stiffness + model.stiffness.transpose()) * 0.5;
-        if !holds(&symmetric) {
-            return Err(RotorError::NotHeld);
-        }
+        model.held()?;
         let inertia = model.mass.clone().cholesky().ok_or(RotorError::NotHeld)?.l();
         let spring = symmetric.cholesky().ok_or(RotorError::NotHeld)?.l();
         // L^-1 G of K = G G^T and M = L L^T: its singular values are the frequencies
@@ -105,12 +103,4 @@ impl Modal {
             if row < r { 0.0 } else { self.stations[column / 2][column % 2][row - r] }
         })
     }
-}
-
-/// Whether every motion meets a stiffness. Over the stiffness of each coordinate alone, rounding leaves a free motion
-/// with some 1e-16 for each coordinate; the softest one of a held shaft of 64 elements has 1e-7 of it.
-fn holds(stiffness: &DMatrix<f64>) -> bool {
-    let own = stiffness.diagonal().map(f64::sqrt);
-    let scaled = DMatrix::from_fn(stiffness.nrows(), stiffness.ncols(), |i, j| stiffness[(i, j)] / (own[i] * own[j]));
-    scaled.iter().all(|entry| entry.is_finite()) && scaled.symmetric_eigenvalues().min() > 1e-13
 }

@@ -1,9 +1,11 @@
 //! The equations of a rotor, and its vibration at a constant speed.
 
-use nalgebra::{Complex, DMatrix, DVector, RowDVector};
+use nalgebra::{Complex, ComplexField, DMatrix, RowDVector};
 
+use super::band::{Band, Factors};
 use super::bearing::Bearing;
 use super::error::RotorError;
+use super::pencil::Strain;
 
 /// The direction of a sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +35,10 @@ pub struct Model {
     pub(super) damping: DMatrix<f64>,
     pub(super) gyroscopic: DMatrix<f64>,
     pub(super) stiffness: DMatrix<f64>,
+    /// The stiffness part by part.
+    pub(super) strains: Vec<Strain>,
+    /// Places beside the diagonal up to which the matrices have entries.
+    pub(super) half: usize,
     /// Deflection along `x` and along `y` of each station, as rows over the coordinates.
     pub(super) stations: Vec<[RowDVector<f64>; 2]>,
     /// Each sensor's share of the coordinates.
@@ -40,13 +46,15 @@ pub struct Model {
 }
 
 impl Model {
-    pub(super) fn empty(coordinates: usize) -> Self {
+    pub(super) fn empty(coordinates: usize, half: usize) -> Self {
         let zeros = || DMatrix::zeros(coordinates, coordinates);
         Model {
             mass: zeros(),
             damping: zeros(),
             gyroscopic: zeros(),
             stiffness: zeros(),
+            strains: Vec::new(),
+            half,
             stations: Vec::new(),
             sensors: Vec::new(),
         }
@@ -56,10 +64,42 @@ impl Model {
     pub(super) fn support(&mut self, at: &[RowDVector<f64>; 2], bearing: &Bearing) {
         for (row, force) in at.iter().enumerate() {
             for (column, motion) in at.iter().enumerate() {
-                self.stiffness += force.transpose() * motion * bearing.stiffness[row][column];
-                self.damping += force.transpose() * motion * bearing.damping[row][column];
+                let (force, motion) = (entries(force), entries(motion));
+                for (&(i, a), &(j, b)) in force.iter().flat_map(|a| motion.iter().map(move |b| (a, b))) {
+                    self.stiffness[(i, j)] += a * b * bearing.stiffness[row][column];
+                    self.damping[(i, j)] += a * b * bearing.damping[row][column];
+                }
+                self.strains.push(Strain { stiffness: bearing.stiffness[row][column], force, motion });
             }
         }
+    }
+
+    /// A matrix with these entries up to where the model has some.
+    pub(super) fn band<T: ComplexField<RealField = f64> + Copy>(&self, entry: impl Fn(usize, usize) -> T) -> Band<T> {
+        Band::new(self.coordinates(), self.half, entry)
+    }
+
+    /// Passes a rotor of which every motion meets a stiffness.
+    ///
+    /// Over the stiffness of each coordinate alone, rounding leaves a free motion with some 1e-16 for each coordinate;
+    /// the softest one of a held shaft of 64 elements has 1e-7 of it.
+    ///
+    /// # Errors
+    /// [`RotorError::NotHeld`].
+    pub fn held(&self) -> Result<(), RotorError> {
+        let own = self.stiffness.diagonal().map(f64::sqrt);
+        let scaled = |i, j| 0.5 * (self.stiffness[(i, j)] + self.stiffness[(j, i)]) / (own[i] * own[j]);
+        let factors = self.band(scaled).positive().ok_or(RotorError::NotHeld)?;
+        // the softest motion grows the most; one that begins without a pattern holds some of it
+        let mut x: Vec<f64> = (0..self.coordinates()).map(|k| (0.618 * (k + 1) as f64).fract() + 0.1).collect();
+        let mut softest = f64::INFINITY;
+        for _ in 0..8 {
+            x = factors.solve(x);
+            let grown = x.iter().map(|x| x * x).sum::<f64>().sqrt();
+            softest = grown.recip();
+            x.iter_mut().for_each(|x| *x /= grown);
+        }
+        if softest > 1e-13 { Ok(()) } else { Err(RotorError::NotHeld) }
     }
 
     pub(super) fn watch(&mut self, at: &[RowDVector<f64>; 2], direction: Direction) {
@@ -94,8 +134,15 @@ impl Model {
         if unbalance.len() != self.stations() {
             return Err(RotorError::Count { name: "unbalances", found: unbalance.len(), expected: self.stations() });
         }
-        let influence = self.influence(speed)?;
-        Ok((influence * DVector::from_column_slice(unbalance)).iter().copied().collect())
+        let factors = self.steady(speed);
+        let mut force = vec![Complex::new(0.0, 0.0); self.coordinates()];
+        for (station, &unbalance) in self.stations.iter().zip(unbalance) {
+            if unbalance != Complex::new(0.0, 0.0) {
+                push(&mut force, station, unbalance * speed * speed);
+            }
+        }
+        let q = bounded(factors.solve(force), speed)?;
+        Ok(self.sensors.iter().map(|sensor| seen(sensor, &q)).collect())
     }
 
     /// Influence coefficients (m/(kg m)) at a speed (rad/s): a row a sensor, a column a station.
@@ -103,28 +150,48 @@ impl Model {
     /// # Errors
     /// An undamped rotor on a critical speed.
     pub fn influence(&self, speed: f64) -> Result<DMatrix<Complex<f64>>, RotorError> {
-        let q = self.deflections(speed)?;
-        Ok(DMatrix::from_fn(self.sensors(), self.stations(), |sensor, station| {
-            self.sensors[sensor].iter().zip(q.column(station).iter()).map(|(&s, &q)| q * s).sum()
-        }))
+        let factors = self.steady(speed);
+        let mut influence = DMatrix::from_element(self.sensors(), self.stations(), Complex::new(0.0, 0.0));
+        for (index, station) in self.stations.iter().enumerate() {
+            let mut force = vec![Complex::new(0.0, 0.0); self.coordinates()];
+            push(&mut force, station, Complex::new(speed * speed, 0.0));
+            let q = bounded(factors.solve(force), speed)?;
+            for (sensor, row) in self.sensors.iter().enumerate() {
+                influence[(sensor, index)] = seen(row, &q);
+            }
+        }
+        Ok(influence)
     }
 
-    /// Amplitudes of all coordinates per unbalance, a column a station.
-    fn deflections(&self, speed: f64) -> Result<DMatrix<Complex<f64>>, RotorError> {
-        let square = speed * speed;
-        let n = self.coordinates();
-        let system = DMatrix::from_fn(n, n, |r, c| {
+    /// The factors of the equations of a whirl once a turn.
+    fn steady(&self, speed: f64) -> Factors<Complex<f64>> {
+        let entry = |r, c| {
             Complex::new(
-                self.stiffness[(r, c)] - square * self.mass[(r, c)],
+                self.stiffness[(r, c)] - speed * speed * self.mass[(r, c)],
                 speed * (self.damping[(r, c)] + speed * self.gyroscopic[(r, c)]),
             )
-        });
-        // Re(u Omega^2 exp(i phi)) along x; Im(...) = Re(-i ...) along y
-        let force = DMatrix::from_fn(n, self.stations(), |r, station| {
-            let [x, y] = &self.stations[station];
-            Complex::new(x[r], -y[r]) * square
-        });
-        let solved = system.lu().solve(&force).filter(|q| q.iter().all(|q| q.re.is_finite() && q.im.is_finite()));
-        solved.ok_or(RotorError::Unbounded { speed })
+        };
+        self.band(entry).factors()
     }
+}
+
+/// Adds a force that goes round: `Re(f exp(i phi))` along `x`, `Im(...) = Re(-i ...)` along `y`.
+fn push(force: &mut [Complex<f64>], [x, y]: &[RowDVector<f64>; 2], turning: Complex<f64>) {
+    for ((sum, &x), &y) in force.iter_mut().zip(x.iter()).zip(y.iter()) {
+        *sum += turning * Complex::new(x, -y);
+    }
+}
+
+fn seen(sensor: &RowDVector<f64>, q: &[Complex<f64>]) -> Complex<f64> {
+    sensor.iter().zip(q).map(|(&share, q)| q * share).sum()
+}
+
+fn bounded(q: Vec<Complex<f64>>, speed: f64) -> Result<Vec<Complex<f64>>, RotorError> {
+    let finite = q.iter().all(|q| q.re.is_finite() && q.im.is_finite());
+    if finite { Ok(q) } else { Err(RotorError::Unbounded { speed }) }
+}
+
+/// What is not zero of a row.
+pub(super) fn entries(row: &RowDVector<f64>) -> Vec<(usize, f64)> {
+    row.iter().copied().enumerate().filter(|&(_, share)| share != 0.0).collect()
 }

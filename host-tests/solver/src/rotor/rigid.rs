@@ -56,7 +56,7 @@ impl RigidRotor {
         positive("mass", rotor, self.mass)?;
         positive("polar moment of inertia", rotor, self.polar)?;
         positive("diametral moment of inertia", rotor, self.diametral)?;
-        let mut model = Model::empty(4);
+        let mut model = Model::empty(4, 3);
         for plane in 0..2 {
             model.mass[(plane, plane)] = self.mass;
             model.mass[(2 + plane, 2 + plane)] = self.diametral;

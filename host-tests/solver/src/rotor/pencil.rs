@@ -1,0 +1,313 @@
+//! Natural motions `q exp(lambda t)` of `(K + lambda C + lambda^2 B) q = 0`: the smallest `lambda`.
+//!
+//! Their inverses are the largest eigenvalues of `(q, w) -> (-K^-1 (C q + s B w), q/s)`, `w = lambda q/s`: Arnoldi's
+//! method finds them with a factor of `K` alone. Each is then refined by the quotient of a left and a right vector,
+//! whose error is the product of theirs, with the strain energy summed part by part: of neighbouring nodes that move
+//! almost alike the assembled stiffness has lost digits.
+
+use nalgebra::{Complex, ComplexField, DMatrix};
+
+use super::band::{Band, Factors};
+
+/// A product of two deflections in the strain energy: stiffness (N/m, or N m), and both by coordinates.
+#[derive(Clone, Debug)]
+pub(super) struct Strain {
+    pub stiffness: f64,
+    pub force: Vec<(usize, f64)>,
+    pub motion: Vec<(usize, f64)>,
+}
+
+/// A natural motion.
+#[derive(Clone, Debug)]
+pub(super) struct Motion {
+    pub value: Complex<f64>,
+    pub shape: Vec<Complex<f64>>,
+}
+
+/// Motions in one block: twice in number are those of a round rotor.
+const BLOCK: usize = 2;
+/// Part of its length that a vector must keep beside the others to count.
+const NEW: f64 = 1e-12;
+/// What Arnoldi's method leaves of a motion, over its eigenvalue.
+const CONVERGED: f64 = 1e-8;
+/// Cosine of the angle between two motions that are one.
+const SAME: f64 = 1.0 - 1e-6;
+
+/// The matrices.
+pub(super) struct Pencil<'a, T> {
+    pub stiffness: Band<T>,
+    pub damping: Band<T>,
+    pub inertia: Band<T>,
+    pub strains: &'a [Strain],
+    /// Whether the stiffness counts by its symmetric part.
+    pub symmetric: bool,
+}
+
+/// Eigenvalues of a small matrix.
+pub(super) trait Eigenvalues: ComplexField<RealField = f64> + Copy {
+    fn eigenvalues(matrix: DMatrix<Self>) -> Vec<Complex<f64>>;
+    fn complex(self) -> Complex<f64>;
+}
+
+impl Eigenvalues for f64 {
+    fn eigenvalues(matrix: DMatrix<f64>) -> Vec<Complex<f64>> {
+        matrix.complex_eigenvalues().iter().copied().collect()
+    }
+
+    fn complex(self) -> Complex<f64> {
+        Complex::new(self, 0.0)
+    }
+}
+
+impl Eigenvalues for Complex<f64> {
+    fn eigenvalues(matrix: DMatrix<Complex<f64>>) -> Vec<Complex<f64>> {
+        matrix.schur().unpack().1.diagonal().iter().copied().collect()
+    }
+
+    fn complex(self) -> Complex<f64> {
+        self
+    }
+}
+
+/// Inner product, the first one conjugate.
+fn inner<T: ComplexField + Copy>(a: &[T], b: &[T]) -> T {
+    a.iter().zip(b).fold(T::zero(), |sum, (&a, &b)| sum + a.conjugate() * b)
+}
+
+fn length<T: ComplexField<RealField = f64> + Copy>(a: &[T]) -> f64 {
+    a.iter().map(|a| a.modulus_squared()).sum::<f64>().sqrt()
+}
+
+/// Numbers without a pattern between -1 and 1 (Weyl's sequence).
+fn scattered<T: ComplexField<RealField = f64>>(size: usize, seed: usize) -> Vec<T> {
+    let number =
+        |k: usize| ((k + 1) as f64 * (0.618_033_988_749_894_9 + seed as f64 * 0.414_213_562_373_095_1)).fract();
+    (0..size).map(|k| T::from_real(2.0 * number(k) - 1.0)).collect()
+}
+
+/// The basis of Arnoldi's method, which grows.
+struct Basis<T> {
+    vectors: Vec<Vec<T>>,
+    /// What the operator makes of each vector, over the vectors.
+    columns: Vec<Vec<T>>,
+    dimension: usize,
+}
+
+impl<T: Eigenvalues> Basis<T> {
+    fn new(dimension: usize) -> Self {
+        let mut basis = Basis { vectors: Vec::new(), columns: Vec::new(), dimension };
+        (0..BLOCK).for_each(|_| basis.fill());
+        basis
+    }
+
+    /// Takes all vectors out of one; their shares.
+    fn orthogonalise(&self, x: &mut [T]) -> Vec<T> {
+        let mut shares = vec![T::zero(); self.vectors.len()];
+        for _ in 0..2 {
+            for (share, vector) in shares.iter_mut().zip(&self.vectors) {
+                let part = inner(vector, x);
+                *share += part;
+                x.iter_mut().zip(vector).for_each(|(x, &v)| *x -= part * v);
+            }
+        }
+        shares
+    }
+
+    /// A new vector without a pattern.
+    fn fill(&mut self) {
+        let full = self.vectors.len() >= self.dimension;
+        for seed in 0..if full { 0 } else { 4 } {
+            let mut x = scattered(self.dimension, 4 * self.vectors.len() + seed);
+            let before = length(&x);
+            self.orthogonalise(&mut x);
+            let left = length(&x);
+            if left > 1e-6 * before {
+                x.iter_mut().for_each(|x| *x = x.unscale(left));
+                return self.vectors.push(x);
+            }
+        }
+    }
+
+    /// Grows to so many columns.
+    fn grow(&mut self, count: usize, operator: &impl Fn(&[T]) -> Vec<T>) {
+        while self.columns.len() < count.min(self.vectors.len()) {
+            let mut x = operator(&self.vectors[self.columns.len()]);
+            let before = length(&x);
+            let mut shares = self.orthogonalise(&mut x);
+            let left = length(&x);
+            if left > NEW * before && self.vectors.len() < self.dimension {
+                x.iter_mut().for_each(|x| *x = x.unscale(left));
+                shares.push(T::from_real(left));
+                self.vectors.push(x);
+            } else {
+                self.fill();
+            }
+            self.columns.push(shares);
+        }
+    }
+
+    /// The operator in the basis, with the rows of what leads out of it.
+    fn matrix(&self) -> DMatrix<T> {
+        let entry = |i: usize, j: usize| self.columns[j].get(i).copied().unwrap_or_else(T::zero);
+        DMatrix::from_fn(self.vectors.len(), self.columns.len(), entry)
+    }
+
+    /// Eigenvector in the basis, and what leads out of it.
+    fn vector(&self, matrix: &DMatrix<T>, value: Complex<f64>, seed: usize) -> Option<(Vec<Complex<f64>>, f64)> {
+        let m = matrix.ncols();
+        let beside = value * Complex::new(1.0 + 1e-11, 1e-11);
+        let system = DMatrix::from_fn(m, m, |i, j| {
+            matrix[(i, j)].complex() - if i == j { beside } else { Complex::new(0.0, 0.0) }
+        });
+        let system = system.lu();
+        let mut y = nalgebra::DVector::from_vec(scattered::<Complex<f64>>(m, seed));
+        for _ in 0..2 {
+            y = system.solve(&y)?;
+            y /= Complex::new(y.norm(), 0.0);
+        }
+        let out = (m..matrix.nrows()).map(|i| (0..m).map(|j| matrix[(i, j)].complex() * y[j]).sum::<Complex<f64>>());
+        let out = out.map(|part| part.norm_sqr()).sum::<f64>().sqrt();
+        Some((y.iter().copied().collect(), out))
+    }
+}
+
+impl<T: Eigenvalues> Pencil<'_, T> {
+    /// The natural motions that are wanted, in any order. `wanted` picks them of all values that are known so far, or
+    /// says that they are too few (`None`); the last call takes what there is.
+    pub fn motions(&self, wanted: impl Fn(&[Complex<f64>], bool) -> Option<Vec<usize>>) -> Vec<Motion> {
+        let (n, _) = self.stiffness.shape();
+        let factors = self.stiffness.clone().factors();
+        let scale = self.scale(&factors);
+        let operator = |x: &[T]| {
+            let (q, w) = x.split_at(n);
+            let w: Vec<T> = w.iter().map(|w| w.scale(scale)).collect();
+            let force = self.damping.times(q).into_iter().zip(self.inertia.times(&w)).map(|(c, b)| -(c + b)).collect();
+            let mut image = factors.solve(force);
+            image.extend(q.iter().map(|q| q.unscale(scale)));
+            image
+        };
+        let dimension = 2 * n;
+        let mut basis = Basis::new(dimension);
+        let mut size = 48;
+        loop {
+            basis.grow(size, &operator);
+            let matrix = basis.matrix();
+            let m = matrix.ncols();
+            let last = m >= dimension || m >= 480;
+            let values: Vec<Complex<f64>> = T::eigenvalues(matrix.rows(0, m).into_owned())
+                .into_iter()
+                .filter(|value| value.norm() > 0.0)
+                .map(|value| value.inv())
+                .collect();
+            let chosen = wanted(&values, last);
+            let found = chosen.into_iter().flatten().map(|k| (values[k], basis.vector(&matrix, values[k].inv(), k)));
+            let found: Vec<_> = found.collect();
+            let settled = |(value, pair): &(Complex<f64>, Option<(Vec<Complex<f64>>, f64)>)| {
+                pair.as_ref().is_some_and(|(_, out)| out * value.norm() <= CONVERGED)
+            };
+            if last || !found.is_empty() && found.iter().all(settled) {
+                let motions = found.into_iter().filter_map(|(value, pair)| {
+                    let mut shape = vec![Complex::new(0.0, 0.0); n];
+                    for (share, vector) in pair?.0.into_iter().zip(&basis.vectors) {
+                        shape.iter_mut().zip(vector).for_each(|(shape, v)| *shape += share * v.complex());
+                    }
+                    self.refined(value, shape)
+                });
+                return apart(motions);
+            }
+            size += size / 3;
+        }
+    }
+
+    /// A frequency among the lowest (rad/s), which makes both halves of a state alike in size.
+    fn scale(&self, factors: &Factors<T>) -> f64 {
+        let mut q = scattered(self.stiffness.shape().0, 0);
+        let mut scale = 1.0;
+        for _ in 0..4 {
+            let before = length(&q);
+            q = factors.solve(self.inertia.times(&q));
+            let after = length(&q);
+            scale = (before / after).sqrt();
+            q.iter_mut().for_each(|q| *q = q.unscale(after));
+        }
+        if scale.is_finite() && scale > 0.0 { scale } else { 1.0 }
+    }
+
+    fn at(&self, value: Complex<f64>) -> Band<Complex<f64>> {
+        let (n, half) = self.stiffness.shape();
+        let square = value * value;
+        Band::new(n, half, |i, j| {
+            let [k, c, b] = [&self.stiffness, &self.damping, &self.inertia].map(|band| band.get(i, j).complex());
+            k + value * c + square * b
+        })
+    }
+
+    /// `y^H K q`, part by part.
+    fn strain(&self, y: &[Complex<f64>], q: &[Complex<f64>]) -> Complex<f64> {
+        let along = |row: &[(usize, f64)], x: &[Complex<f64>]| -> Complex<f64> {
+            row.iter().map(|&(at, share)| x[at] * share).sum()
+        };
+        let part = |strain: &Strain| {
+            let Strain { stiffness, force, motion } = strain;
+            let straight = along(force, y).conj() * along(motion, q);
+            let both =
+                if self.symmetric { 0.5 * (straight + along(motion, y).conj() * along(force, q)) } else { straight };
+            both * *stiffness
+        };
+        self.strains.iter().map(part).sum()
+    }
+
+    /// The root nearest to a value of the scalar equation that two vectors make of the pencil.
+    fn quotient(&self, y: &[Complex<f64>], q: &[Complex<f64>], near: Complex<f64>) -> Complex<f64> {
+        let form = |band: &Band<T>| {
+            let (n, half) = band.shape();
+            let row = |i: usize| {
+                let across = i.saturating_sub(half)..(i + half + 1).min(n);
+                y[i].conj() * across.map(|j| band.get(i, j).complex() * q[j]).sum::<Complex<f64>>()
+            };
+            (0..n).map(row).sum::<Complex<f64>>()
+        };
+        let (a, b, c) = (form(&self.inertia), form(&self.damping), self.strain(y, q));
+        let root = (b * b - a * c * 4.0).sqrt();
+        // without the difference of two numbers that are alike
+        let sum = if (b.conj() * root).re >= 0.0 { b + root } else { b - root };
+        let [one, other] = [-sum / (a * 2.0), -c * 2.0 / sum];
+        if (one - near).norm() < (other - near).norm() { one } else { other }
+    }
+
+    fn refined(&self, value: Complex<f64>, mut q: Vec<Complex<f64>>) -> Option<Motion> {
+        let factors = self.at(value + Complex::from_polar(1e-4 * value.norm(), 0.7)).factors();
+        let mut y = factors.solve_adjoint(q.clone());
+        let mut value = value;
+        for _ in 0..3 {
+            for x in [&mut q, &mut y] {
+                let size = length(x);
+                x.iter_mut().for_each(|x| *x /= size);
+            }
+            value = self.quotient(&y, &q, value);
+            let at = self.at(value);
+            let right = factors.solve(at.times(&q));
+            let left = factors.solve_adjoint(at.adjoint_times(&y));
+            q.iter_mut().zip(right).for_each(|(q, change)| *q -= change);
+            y.iter_mut().zip(left).for_each(|(y, change)| *y -= change);
+        }
+        value = self.quotient(&y, &q, value);
+        let finite = value.re.is_finite() && value.im.is_finite();
+        finite.then_some(Motion { value, shape: q })
+    }
+}
+
+/// Without those that are another one again.
+fn apart(motions: impl Iterator<Item = Motion>) -> Vec<Motion> {
+    let mut kept: Vec<Motion> = Vec::new();
+    for motion in motions {
+        let again = |other: &Motion| {
+            let near = (other.value - motion.value).norm() <= 1e-9 * motion.value.norm();
+            near && inner(&other.shape, &motion.shape).norm() >= SAME * length(&other.shape) * length(&motion.shape)
+        };
+        if !kept.iter().any(again) {
+            kept.push(motion);
+        }
+    }
+    kept
+}
