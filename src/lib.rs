@@ -44,13 +44,14 @@
 //! | [`configure`] | [`configure::Machine`]: the constants of a machine, from which all others follow |
 //! | [`machine`], [`design`] | the machine and the design of its control: `const fn` in `f64` |
 //! | [`settings`] | the design as the constants of a [`number`] type |
+//! | [`axis`] | a drive on a board: its trip, missed ticks, and what a board must have |
 //! | [`drive`] | a tick through all parts; [`sample`] its inputs and outputs, [`fault`] its flags |
 //! | [`observer`], [`fluctuation`], [`governor`], [`balancing`] | the parts; `()` is one that is not needed |
 //! | [`scheduling`], [`learning`] | loads and ropes that change; losses and errors found while the machine works |
 //! | [`fatigue`] | cycles of the shaft torque and their damage |
 //! | [`commissioning`] | a test that identifies the machine |
 //! | [`angle`], [`wheel`], [`math`] | angles behind gears and of toothed wheels; functions of a constant |
-//! | `hal`, `telemetry`, `parameters` | features: adapters to `embedded-hal`, records of ticks, a record in flash |
+//! | `telemetry`, `parameters` | features: records of ticks, a record in flash |
 //!
 //! # Errors
 //! A machine that cannot be, or whose observer or speed loop is unstable, is a compile error with a sentence. Where the
@@ -92,6 +93,7 @@
 mod sentences;
 
 pub mod angle;
+pub mod axis;
 pub mod balancing;
 pub mod commissioning;
 pub mod configure;
@@ -101,8 +103,6 @@ pub mod fatigue;
 pub mod fault;
 pub mod fluctuation;
 pub mod governor;
-#[cfg(feature = "hal")]
-pub mod hal;
 pub mod learning;
 pub mod machine;
 pub mod math;
@@ -119,7 +119,7 @@ pub mod telemetry;
 pub mod wheel;
 
 /// The listings of the book.
-#[cfg(all(doctest, feature = "hal"))]
+#[cfg(doctest)]
 #[doc = include_str!("../doc/first-drive.md")]
 mod first_drive_on_a_board {}
 

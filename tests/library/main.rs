@@ -1,6 +1,7 @@
-//! Machines, designs, observers, governors, measurement, learners, balancing and adapters, each against closed forms,
+//! Machines, designs, observers, governors, measurement, learners, balancing and the axis, each against closed forms,
 //! published tables or the full solver. Neither firmware nor QEMU is needed.
 
+mod axis;
 mod backlash;
 mod balance;
 mod cranked;
@@ -9,11 +10,11 @@ mod elements;
 mod fatigue;
 mod fluctuation;
 mod governor;
-mod hal;
 mod hoist;
 mod learning;
 mod lift;
 mod machine;
+mod parameters;
 mod recordings;
 mod references;
 mod scheduling;

@@ -16,7 +16,6 @@ use cortex_m::interrupt::free;
 use cortex_m::peripheral::{DWT, NVIC};
 use cortex_m_rt::entry;
 use driveline::configure::Machine;
-use driveline::hal::{FullScale, PwmTorque};
 use driveline::telemetry::{Channel as Column, Kind, Ring};
 use driveline_firmware::board::nucleo_g474re::{
     Beside, Channel, Nucleo, Pin, Serial, Vibration, full_scale, start_tick, tick_taken,
@@ -30,6 +29,7 @@ use driveline_firmware::panel::serial_request::{self, Asking, RELEASE, Request, 
 use driveline_firmware::scene::panel_keys::{DONE, refused};
 use driveline_firmware::scene::{Constants, Variant};
 use driveline_firmware::scenes::test_rig::{self, Adviser, TestRig};
+use driveline_hal::{FullScale, PwmTorque};
 use stm32_metapac::{Interrupt, interrupt};
 
 driveline_firmware::selected!("test-rig/f32/whole/10000");

@@ -1,8 +1,9 @@
 //! NUCLEO-G474RE: a Cortex-M4F at 170 MHz with a timer for motors, and a motor behind a drive or a bridge.
 //!
-//! `nucleo_g474re/nucleo.rs` is the board: [`driveline::hal::Board`] from the library's adapters. The files beside it
-//! are its registers, one peripheral each, through `stm32-metapac`, the crate of registers that `embassy-stm32` stands
-//! on: the image may hold no reachable panic, and a hardware layer that checks its arguments at run time has some.
+//! `nucleo_g474re/nucleo.rs` is the board: [`driveline::axis::Board`] from drivers of `driveline-hal`. The files beside
+//! it are its registers, one peripheral each, through `stm32-metapac`, the crate of registers that `embassy-stm32`
+//! stands on: the image may hold no reachable panic, and a hardware layer that checks its arguments at run time has
+//! some.
 //! `nucleo_g474re/console.rs` is the board of the bench alone, which drives nothing and counts cycles.
 //! `doc/boards.md` has the wiring. **It has not run on hardware.**
 //!

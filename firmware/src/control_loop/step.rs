@@ -4,8 +4,8 @@
 //! the enable chain and off before it. An output that the board rejects is withdrawn in the same turn and reported to
 //! the next tick, which trips.
 
+use driveline::axis::Board;
 use driveline::fault::Faults;
-use driveline::hal::Board;
 use driveline::number::Number;
 
 use crate::scene::{Input, Output};

@@ -10,12 +10,12 @@
 
 use core::marker::PhantomData;
 
+use driveline::axis::{Axis, Board, TRIPPING};
 use driveline::configure::HasVibration;
 use driveline::drive::ConfigOf;
 use driveline::fault::Faults;
 use driveline::fluctuation::Fluctuation;
 use driveline::governor::Governor;
-use driveline::hal::{Axis, Board, TRIPPING};
 use driveline::number::Number;
 use driveline::observer::Observer;
 

@@ -15,7 +15,7 @@ const PROGRAMS: [[&str; 3]; 3] =
     [["driveline", "--lib", ""], ["driveline", "--test", "tick"], ["driveline", "--test", "library"]];
 
 /// Those that the command has, so that the library is built once.
-const FEATURES: &str = "balancing,hal,hal-async,parameters,telemetry";
+const FEATURES: &str = "balancing,parameters,telemetry";
 
 const HEAD: &str = "#![feature(core_intrinsics, const_eval_select)]
 #![allow(warnings, internal_features, arithmetic_overflow, unconditional_panic)]

@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 /// What is on the path of a tick.
 const TICK_PATH: [&str; 9] =
-    ["observer", "drive", "governor", "fluctuation", "fault", "balancing", "hal", "number", "settings"];
+    ["observer", "drive", "governor", "fluctuation", "fault", "balancing", "axis", "number", "settings"];
 
 #[derive(Clone, Debug, Deserialize)]
 pub struct Mutant {

@@ -13,8 +13,8 @@
 
 use core::convert::Infallible;
 
+use driveline::axis::Enabling;
 use driveline::fault::Faults;
-use driveline::hal::Enabling;
 use embedded_hal::pwm::{ErrorType, SetDutyCycle};
 use stm32_metapac::gpio::vals::Pupdr;
 use stm32_metapac::timer::vals::{Bkp, Cms, FilterValue, Lock, Ocm, Ossi, Ossr};

@@ -3,7 +3,7 @@
 //! It counts every edge, 32 bits. Where A and B change at once the timer flags a lost edge to the drive. The index's
 //! rising edge captures the count (CH3).
 
-use driveline::hal::Counter;
+use driveline_hal::Counter;
 use stm32_metapac::TIM2;
 use stm32_metapac::gpio::vals::Pupdr;
 use stm32_metapac::timer::vals::{CcmrInputCcs, FilterValue, Sms};

@@ -1,9 +1,8 @@
 //! The board: angle in, torque out, the power stage on and off.
 
+use driveline::axis::{Board, Enabling, TorqueOutput};
 use driveline::fault::Faults;
-use driveline::hal::{
-    Board, EnableChain, EnableLine, Enabling, FullScale, PhaseConfig, PwmTorque, Quadrature, ThreePhase, TorqueOutput,
-};
+use driveline_hal::{EnableChain, EnableLine, FullScale, PhaseConfig, PwmTorque, Quadrature, ThreePhase};
 use stm32_metapac::{FLASH, PWR, RCC, TAMP};
 
 use super::bridge::{self, Channel, Outputs};

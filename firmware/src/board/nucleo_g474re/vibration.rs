@@ -7,7 +7,7 @@ use core::ptr;
 
 use driveline::configure::HasVibration;
 use driveline::fault::Faults;
-use driveline::hal::{AdcVibration, PerCount};
+use driveline_hal::{AdcVibration, PerCount};
 use stm32_metapac::adc::Adc;
 use stm32_metapac::adc::vals::{Dmacfg, Dmaen, Exten, Ovrmod, SampleTime};
 use stm32_metapac::adccommon::vals::{Ckmode, Presc};

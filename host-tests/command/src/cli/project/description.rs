@@ -83,6 +83,7 @@ pub struct Project {
     driveline: String,
     solver: String,
     firmware: String,
+    hal: String,
     /// Why there is no drive.
     #[serde(skip)]
     no_drive: Option<Failure>,
@@ -207,6 +208,7 @@ impl Project {
             driveline: Source::find().dependency(""),
             solver: Source::find().dependency("host-tests/solver"),
             firmware: Source::find().dependency("firmware"),
+            hal: Source::find().dependency("hal"),
             no_drive: match &plan {
                 Err(error) => Some(error.message().to_owned()),
                 Ok(plan) => plan.predicted.as_ref().and_then(|predicted| predicted.lack.clone()),

@@ -3,12 +3,13 @@
 
 use std::convert::Infallible;
 
-use driveline::hal::{FullScale, PhaseConfig, PwmTorque, ThreePhase, TorqueOutput};
+use driveline::axis::TorqueOutput;
 use driveline_firmware::board::nucleo_g474re::reset::{HARD_FAULT, NMI, bits, word};
 use driveline_firmware::board::nucleo_g474re::ring_reader::RingReader;
 use driveline_firmware::board::nucleo_g474re::{DEAD_TIME, PHASE_PINS, PWM_HZ, full_scale};
 use driveline_firmware::panel::operator::{Operator, PERMIT, STANDS};
 use driveline_firmware::panel::serial_request::{Asking, RELEASE, Request, SEQUENCE, SPEED, Sequence, Turn};
+use driveline_hal::{FullScale, PhaseConfig, PwmTorque, ThreePhase};
 use embedded_hal::pwm::{ErrorType, SetDutyCycle};
 use proptest::prelude::*;
 

@@ -2,9 +2,9 @@
 
 use std::cell::RefCell;
 
+use driveline::axis::Board;
 use driveline::configure::Machine as _;
 use driveline::fault::Faults;
-use driveline::hal::Board;
 use driveline_firmware::control_loop::main_loop_watch::{Attended, PATIENCE};
 use driveline_firmware::control_loop::step::{Asked, Turn};
 use driveline_firmware::scene::{Input, Of, Scene, Variant};

@@ -1,7 +1,8 @@
 //! The angle from a counter and from a magnetic encoder.
 
+use driveline::axis::AngleSensor;
 use driveline::fault::Faults;
-use driveline::hal::{AngleSensor, Chip, Counter, MagneticEncoder, Quadrature};
+use driveline_hal::{Chip, Counter, MagneticEncoder, Quadrature};
 
 use super::bus::Expected;
 

@@ -5,8 +5,10 @@
 //! current, signed 16 bits [TMC4671 datasheet, register `PID_TORQUE_FLUX_TARGET`]. There is no checksum, so that each
 //! target is read back.
 
-use super::{FullScale, Scaled, TorqueOutput};
-use crate::fault::Faults;
+use driveline::axis::TorqueOutput;
+use driveline::fault::Faults;
+
+use super::{FullScale, Scaled};
 
 const TARGET: u8 = 0x64;
 const WRITE: u8 = 0x80;
@@ -52,7 +54,7 @@ impl<S: embedded_hal::spi::SpiDevice, N: Scaled> TorqueOutput<N> for Tmc4671<S, 
     }
 }
 
-#[cfg(feature = "hal-async")]
+#[cfg(feature = "async")]
 impl<S: embedded_hal_async::spi::SpiDevice, N: Scaled> Tmc4671<S, N> {
     async fn target_async(&mut self, torque: i16) -> Result<(), Faults> {
         self.bus.write(&write(torque)).await.map_err(|_| Faults::TORQUE_OUTPUT)?;

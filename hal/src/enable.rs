@@ -4,18 +4,9 @@
 //! after the other, the last one only where all before it did, and off in the reverse order, each one whether or not
 //! the others obey.
 
+use driveline::axis::Enabling;
+use driveline::fault::Faults;
 use embedded_hal::digital::{OutputPin, PinState};
-
-use crate::fault::Faults;
-
-/// Switches the power stage.
-pub trait Enabling {
-    /// On or off.
-    ///
-    /// # Errors
-    /// [`Faults::ENABLE`] where a line did not obey; all that do are then off.
-    fn set_enabled(&mut self, enabled: bool) -> Result<(), Faults>;
-}
 
 /// A pin and the level at which it permits torque.
 #[derive(Clone, Copy, Debug)]
@@ -120,20 +111,5 @@ impl<P: OutputPin> Enabling for TripLine<P> {
             let _ = self.0.set(false);
         }
         set
-    }
-}
-
-/// One after the other; off in the reverse order.
-impl<A: Enabling, B: Enabling> Enabling for (A, B) {
-    fn set_enabled(&mut self, enabled: bool) -> Result<(), Faults> {
-        if enabled {
-            let on = self.0.set_enabled(true).and_then(|()| self.1.set_enabled(true));
-            if on.is_err() {
-                let _ = self.set_enabled(false);
-            }
-            return on;
-        }
-        let second = self.1.set_enabled(false);
-        self.0.set_enabled(false).and(second)
     }
 }

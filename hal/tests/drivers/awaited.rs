@@ -1,15 +1,16 @@
 //! The adapters on SPI, awaited: the same frames and faults as where they block, and what a dropped future leaves.
 
+use driveline::axis::{AngleSensor, Parts, TRIPPING, TorqueOutput, VibrationSensor};
 use driveline::fault::Faults;
-use driveline::hal::{
-    Adxl355, Along, AngleSensor, AwaitedAngle, AwaitedTorque, Chip, Dac, FullScale, MagneticEncoder, Parts, PerCount,
-    Range, SpiDac, TRIPPING, Tmc4671, TorqueOutput, VibrationSensor,
+use driveline_hal::{
+    Adxl355, Along, AwaitedAngle, AwaitedTorque, Chip, Dac, FullScale, MagneticEncoder, PerCount, Range, SpiDac,
+    Tmc4671,
 };
 
 use super::angle::{Frames, Wrong};
-use super::axis::{CAUGHT, CONFIG, WANTED, Whole, turned};
 use super::bus::Expected;
 use super::chips::{self, As5047P, Taker, Wired, awaited, polled};
+use super::scripted::{CAUGHT, CONFIG, WANTED, Whole, turned};
 use super::vibration::{burst, started};
 
 const FULL: FullScale<f32> = FullScale::<f32>::new(10.0);

@@ -1,15 +1,16 @@
 //! Vibration from an ADXL355 and from conversions.
 
+use driveline::axis::{Axis, TRIPPING, VibrationSensor};
 use driveline::balancing::{Phasors, PhasorsConfig, Reading, ReadingFault};
 use driveline::drive::Config;
 use driveline::fault::Faults;
 use driveline::governor::SpeedLoop;
-use driveline::hal::{AdcVibration, Adxl355, Along, Axis, PerCount, Range, TRIPPING, VibrationSensor};
 use driveline::number::Fixed;
 use driveline::settings::PhasorSettings;
+use driveline_hal::{AdcVibration, Adxl355, Along, PerCount, Range};
 
-use super::axis;
 use super::bus::{Bus, Expected};
+use super::scripted;
 
 pub const MISSING: Result<Option<f32>, Faults> = Err(Faults::VIBRATION_MISSING);
 const CLIPPED: Result<Option<f32>, Faults> = Err(Faults::VIBRATION_CLIPPED);
@@ -156,14 +157,14 @@ fn old_clipped_and_no_conversions_are_faults() {
 #[test]
 fn a_reading_through_an_axis_says_what_its_samples_lacked() {
     let config = Config {
-        limits: axis::CONFIG.limits,
-        observer: axis::CONFIG.observer,
+        limits: scripted::CONFIG.limits,
+        observer: scripted::CONFIG.observer,
         fluctuation: (),
-        governor: axis::CONFIG.governor,
+        governor: scripted::CONFIG.governor,
         balancer: PhasorsConfig::<f32, 1>::new(&PhasorSettings { turns: 1, ..PhasorSettings::DIRECT }, [100.0]),
     };
-    let mut axis = Axis::<_, f32, axis::Observer, (), SpeedLoop<f32>, Phasors<f32, 1, 3>>::new(
-        axis::Scripted::sound(),
+    let mut axis = Axis::<_, f32, scripted::Observer, (), SpeedLoop<f32>, Phasors<f32, 1, 3>>::new(
+        scripted::Scripted::sound(),
         &config,
         TRIPPING,
     );
@@ -173,7 +174,7 @@ fn a_reading_through_an_axis_says_what_its_samples_lacked() {
         axis.drive_mut().balancer_mut().begin();
         // at 30 rad/s and 10 kHz a turn has 2094 ticks: the fault comes within the reading
         for tick in 0..8000 {
-            axis.tick(&config, axis::WANTED);
+            axis.tick(&config, scripted::WANTED);
             let theta = f64::from(axis.drive().angle()) / 4_294_967_296.0 * std::f64::consts::TAU;
             let faulty = fault.filter(|_| tick == 3000);
             transfers += u32::from(faulty != Some(Faults::VIBRATION_MISSING));

@@ -12,8 +12,8 @@
 //! | offset compensation finished | a chip that has just started, and a line that is stuck low: zeros have an even parity |
 //! | CORDIC overflow, field too strong, field too weak | a magnet that has moved or gone |
 
-use super::AngleSensor;
-use crate::fault::Faults;
+use driveline::axis::AngleSensor;
+use driveline::fault::Faults;
 
 /// Which chip it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,7 +107,7 @@ impl<S: embedded_hal::spi::SpiDevice> AngleSensor for MagneticEncoder<S> {
     }
 }
 
-#[cfg(feature = "hal-async")]
+#[cfg(feature = "async")]
 impl<S: embedded_hal_async::spi::SpiDevice> MagneticEncoder<S> {
     async fn exchange_async(&mut self, register: u16) -> Result<[u8; 2], Faults> {
         let mut frame = command(register);

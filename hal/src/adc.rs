@@ -1,7 +1,8 @@
 //! Vibration from a slice of conversions, as DMA leaves them.
 
+use driveline::fault::Faults;
+
 use super::{PerCount, Scaled};
-use crate::fault::Faults;
 
 /// An accelerometer or a velocity pickup on an ADC. A sample is the mean of the slice that was converted during a tick.
 #[derive(Clone, Copy, Debug)]

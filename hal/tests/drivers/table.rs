@@ -1,26 +1,26 @@
 //! `doc/adapters.md`: every fault of every adapter with what the drive does, from runs of an axis on mocked buses.
 //!
-//! The test compares; `DRIVELINE_WRITE=1 cargo test -p cargo-driveline --test library hal::table` writes the file anew.
+//! The test compares; `DRIVELINE_WRITE=1 cargo test -p driveline-hal --test drivers table` writes the file anew.
 
 use std::cell::{Cell, RefCell};
 use std::fmt::Write as _;
 use std::rc::Rc;
 
+use driveline::axis::{AngleSensor, Enabling, TRIPPING, TorqueOutput, VibrationSensor};
 use driveline::fault::Faults;
-use driveline::hal::{
-    AdcVibration, Adxl355, Along, AngleSensor, AwaitedAngle, AwaitedTorque, Chip, Dac, EnableChain, EnableLine,
-    Enabling, FullScale, MagneticEncoder, PerCount, PhaseConfig, PwmTorque, Quadrature, Range, SpiDac, TRIPPING,
-    ThreePhase, Tmc4671, TorqueOutput, TripLine, VibrationSensor,
-};
 use driveline::settings::{Teeth, ToothClock};
 use driveline::wheel::{ToothedWheel, ToothedWheelConfig};
+use driveline_hal::{
+    AdcVibration, Adxl355, Along, AwaitedAngle, AwaitedTorque, Chip, Dac, EnableChain, EnableLine, FullScale,
+    MagneticEncoder, PerCount, PhaseConfig, PwmTorque, Quadrature, Range, SpiDac, ThreePhase, Tmc4671, TripLine,
+};
 use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction as Level};
 use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Duty};
 
 use super::angle::{Counts, Frames, Wrong};
-use super::axis::{CAUGHT, CONFIG, Scripted, WANTED, Whole, governing, turned};
 use super::bus::{Expected, FAILED};
 use super::chips::{self, Wired, awaited, polled};
+use super::scripted::{CAUGHT, CONFIG, Scripted, WANTED, Whole, governing, turned};
 use super::vibration;
 
 /// 60-2, on a clock of 1 MHz.
@@ -35,12 +35,13 @@ const END: u64 = AT + 600;
 const HEADER: &str = "\
 # Every fault of every adapter, and what the drive does
 
-Written by a test (`tests/library/hal/table.rs`) from runs on mocked buses, and checked by it. The
-drive is the hoist's, in `f32` at 10,000 ticks a second, on an axis that trips as a rule does (`hal::TRIPPING`); the
-motor turns at 30 rad/s when the fault comes.
+Written by a test (`hal/tests/drivers/table.rs`) from runs on mocked buses, and checked by it. The
+drive is the hoist's, in `f32` at 10,000 ticks a second, on an axis that trips as a rule does (`axis::TRIPPING`); the
+motor turns at 30 rad/s when the fault comes. An adapter is a driver of `driveline-hal`, or the library's
+`ToothedWheel`.
 
-The adapters on SPI do the same where they are awaited (feature `hal-async`): whichever transaction fails, both forms
-give the same and send the same (`tests/library/hal/awaited.rs`). A future may be dropped at any
+The drivers on SPI do the same where they are awaited (feature `async`): whichever transaction fails, both forms
+give the same and send the same (`hal/tests/drivers/awaited.rs`). A future may be dropped at any
 point. What was dropped is the fault of the rows that say so.
 
 | adapter | fault | flags in that tick | torque in that tick | if it was one tick | if it stays |
@@ -189,7 +190,7 @@ fn awaited_angle(table: &mut Table) {
 /// those of `more` added.
 fn on_wheel(lost: impl Fn(u32) -> bool, more: Option<f64>) -> (Ran, Vec<Faults>) {
     // a tick is 100 counts
-    let turn = std::f64::consts::TAU / super::axis::SPEED * 1e6;
+    let turn = std::f64::consts::TAU / super::scripted::SPEED * 1e6;
     let mut teeth: Vec<_> = (0..60_u32 * 12)
         .filter(|&place| place % 60 < 58 && !lost(place))
         .map(|place| (f64::from(place) / 60.0 * turn) as u32)
@@ -434,7 +435,7 @@ fn the_table_is_what_the_runs_give() {
         rows(&mut table.borrow_mut());
     }
     let written = table.into_inner().0;
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/doc/adapters.md");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../doc/adapters.md");
     if std::env::var_os("DRIVELINE_WRITE").is_some() {
         std::fs::write(path, &written).unwrap();
     }

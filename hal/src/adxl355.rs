@@ -4,8 +4,10 @@
 //! data returns the data together with their new-data flag [Analog Devices ADXL354/ADXL355, Rev. B, tables 16, 22 and
 //! 24 to 26].
 
-use super::{PerCount, Scaled, VibrationSensor};
-use crate::fault::Faults;
+use driveline::axis::VibrationSensor;
+use driveline::fault::Faults;
+
+use super::{PerCount, Scaled};
 
 const WHO: u8 = 0x00;
 const STATUS: u8 = 0x04;
@@ -155,10 +157,10 @@ impl<S: embedded_hal::spi::SpiDevice, N: Scaled> VibrationSensor<N> for Adxl355<
 }
 
 /// Polls without a sample, where the last one was cut off: far beyond any patience.
-#[cfg(feature = "hal-async")]
+#[cfg(feature = "async")]
 const CUT_OFF: u32 = u32::MAX;
 
-#[cfg(feature = "hal-async")]
+#[cfg(feature = "async")]
 impl<S: embedded_hal_async::spi::SpiDevice, N: Scaled> Adxl355<S, N> {
     /// [`Adxl355::start`], awaited.
     ///

@@ -190,7 +190,7 @@ pub struct Stage {
     pub enabled: bool,
 }
 
-impl driveline::hal::Enabling for Stage {
+impl driveline::axis::Enabling for Stage {
     fn set_enabled(&mut self, enabled: bool) -> Result<(), driveline::fault::Faults> {
         self.enabled = enabled;
         Ok(())

@@ -8,12 +8,13 @@
 //! The three voltages are shifted together by half of the sum of their largest and least. That does not change what is
 //! between the terminals, and they fit a bridge 2/sqrt(3) times as well as three sines do.
 
+use driveline::axis::TorqueOutput;
+use driveline::fault::Faults;
 use embedded_hal::pwm::SetDutyCycle;
 
 use super::pwm::duty;
 use super::sine::sine;
-use super::{FullScale, Scaled, TorqueOutput};
-use crate::fault::Faults;
+use super::{FullScale, Scaled};
 
 /// A third of a turn.
 const THIRD: u32 = 1_431_655_765;

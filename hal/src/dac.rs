@@ -1,7 +1,9 @@
 //! A torque as a voltage: a DAC on SPI before a drive's analog input.
 
-use super::{FullScale, Scaled, TorqueOutput};
-use crate::fault::Faults;
+use driveline::axis::TorqueOutput;
+use driveline::fault::Faults;
+
+use super::{FullScale, Scaled};
 
 /// Which DAC it is. Its middle code is no torque.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,7 +58,7 @@ impl<S: embedded_hal::spi::SpiDevice, N: Scaled> TorqueOutput<N> for SpiDac<S, N
     }
 }
 
-#[cfg(feature = "hal-async")]
+#[cfg(feature = "async")]
 impl<S: embedded_hal_async::spi::SpiDevice, N: Scaled> SpiDac<S, N> {
     async fn write_async(&mut self, fraction: i32) -> Result<(), Faults> {
         match self.dac {

@@ -4,9 +4,9 @@
 //! never arrive, where its future is dropped by a time limit. An angle is therefore good for one tick, and a torque
 //! that was not handed over is a fault of the next tick.
 
-use super::{AngleSensor, TorqueOutput};
-use crate::fault::Faults;
-use crate::number::Number;
+use driveline::axis::{AngleSensor, TorqueOutput};
+use driveline::fault::Faults;
+use driveline::number::Number;
 
 /// An angle that is awaited between two ticks.
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,6 +1,5 @@
-//! Interface of a control loop to its board.
+//! Interface of a control loop to its board and to the board's parts.
 
-use super::{AngleSensor, Enabling, TorqueOutput};
 use crate::fault::Faults;
 
 /// A board with a motor: an angle in, a torque out, the power stage on and off.
@@ -42,7 +41,45 @@ pub trait Board<N> {
     fn alive(&mut self) {}
 }
 
-/// A board made of adapters.
+/// A sensor of the motor's angle.
+pub trait AngleSensor {
+    /// The angle now, 2^32 to the turn.
+    ///
+    /// # Errors
+    /// [`Faults::ANGLE_MISSING`] where there is none that is new and sound.
+    fn angle(&mut self) -> Result<u32, Faults>;
+}
+
+/// An output for the torque.
+pub trait TorqueOutput<N> {
+    /// Gives `torque` from now on; `angle` is the motor's, 2^32 to the turn, for outputs that commutate.
+    ///
+    /// # Errors
+    /// [`Faults::TORQUE_OUTPUT`] where it could not be handed over. Zero torque has then been written as far as
+    /// possible.
+    fn set_torque(&mut self, torque: N, angle: u32) -> Result<(), Faults>;
+}
+
+/// Switches the power stage.
+pub trait Enabling {
+    /// On or off.
+    ///
+    /// # Errors
+    /// [`Faults::ENABLE`] where a line did not obey; all that do are then off.
+    fn set_enabled(&mut self, enabled: bool) -> Result<(), Faults>;
+}
+
+/// A sensor of vibration.
+pub trait VibrationSensor<N> {
+    /// The newest sample, `None` where none has come since the last call and none is overdue.
+    ///
+    /// # Errors
+    /// [`Faults::VIBRATION_CLIPPED`] where the sensor was at an end of its range, [`Faults::VIBRATION_MISSING`] where
+    /// the sample is not sound otherwise, or overdue.
+    fn vibration(&mut self) -> Result<Option<N>, Faults>;
+}
+
+/// A board made of parts.
 #[derive(Clone, Copy, Debug)]
 // Not logged: holds the parts of a board.
 pub struct Parts<A, T, E> {
@@ -65,5 +102,20 @@ impl<N, A: AngleSensor, T: TorqueOutput<N>, E: Enabling> Board<N> for Parts<A, T
 
     fn set_enabled(&mut self, enabled: bool) -> Result<(), Faults> {
         self.enable.set_enabled(enabled)
+    }
+}
+
+/// One after the other; off in the reverse order.
+impl<A: Enabling, B: Enabling> Enabling for (A, B) {
+    fn set_enabled(&mut self, enabled: bool) -> Result<(), Faults> {
+        if enabled {
+            let on = self.0.set_enabled(true).and_then(|()| self.1.set_enabled(true));
+            if on.is_err() {
+                let _ = self.set_enabled(false);
+            }
+            return on;
+        }
+        let second = self.1.set_enabled(false);
+        self.0.set_enabled(false).and(second)
     }
 }

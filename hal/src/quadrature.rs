@@ -1,7 +1,7 @@
 //! An incremental encoder on a timer that counts its quadrature.
 
-use super::AngleSensor;
-use crate::fault::Faults;
+use driveline::axis::AngleSensor;
+use driveline::fault::Faults;
 
 /// A timer that counts the edges of an encoder, up and down.
 pub trait Counter {

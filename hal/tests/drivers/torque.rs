@@ -1,11 +1,12 @@
 //! Torque to duty, code and target.
 
 use crate::hoist::Hoist;
+use driveline::axis::TorqueOutput;
 use driveline::configure::Machine as _;
 use driveline::fault::Faults;
-use driveline::hal::{Dac, FullScale, PhaseConfig, PwmTorque, SpiDac, ThreePhase, Tmc4671, TorqueOutput};
 use driveline::number::Fixed;
 use driveline::settings::Bases;
+use driveline_hal::{Dac, FullScale, PhaseConfig, PwmTorque, SpiDac, ThreePhase, Tmc4671};
 use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Duty};
 
 use super::bus::{Expected, FAILED};

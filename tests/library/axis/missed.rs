@@ -1,10 +1,10 @@
 //! Ticks that did not run, counted from a timer.
 
+use driveline::axis::MissedTicks;
 use driveline::fault::Faults;
-use driveline::hal::MissedTicks;
 use driveline_solver::noise::Noise;
 
-use super::axis::{CONFIG, Scripted, WANTED, governing};
+use super::scripted::{CONFIG, Scripted, WANTED, governing};
 
 /// Periods of a timer at 84 MHz in a tick at 10 kHz, which is not a power of two.
 const PERIOD: u32 = 8_400;
@@ -49,7 +49,7 @@ fn an_axis_makes_up_the_ticks_that_its_board_has_missed() {
     // not made up, each gap is a jump of the angle by its length: eight ticks at 30 rad/s are 31 counts of 8192. The
     // motor turns steadily whatever the torque, so that a prediction is off by the torque over the 0.7 kg m2 before the
     // rope, 8 ticks of it.
-    let speed = |axis: &super::axis::Whole<Scripted>| f64::from(axis.drive().estimate(CONFIG).motor_speed);
+    let speed = |axis: &super::scripted::Whole<Scripted>| f64::from(axis.drive().estimate(CONFIG).motor_speed);
     let torque = f64::from(sound.tick(CONFIG, WANTED).torque).abs();
     assert!((speed(&axis) - speed(&sound)).abs() < torque / 0.7 * 8e-4 + 0.01, "{} {}", speed(&axis), speed(&sound));
 }

@@ -1,9 +1,10 @@
 //! A torque as the duty of one PWM channel.
 
+use driveline::axis::TorqueOutput;
+use driveline::fault::Faults;
 use embedded_hal::pwm::SetDutyCycle;
 
-use super::{FullScale, Scaled, TorqueOutput};
-use crate::fault::Faults;
+use super::{FullScale, Scaled};
 
 /// One channel whose half duty is no torque: full scale forwards at the largest duty, backwards at none.
 ///

@@ -1,7 +1,8 @@
 //! The order of the enable chain, and what a line that fails does to the others.
 
+use driveline::axis::{AngleSensor, Board, Enabling, Parts, TorqueOutput};
 use driveline::fault::Faults;
-use driveline::hal::{AngleSensor, Board, EnableChain, EnableLine, Enabling, Parts, TorqueOutput, TripLine};
+use driveline_hal::{EnableChain, EnableLine, TripLine};
 use embedded_hal::digital::{ErrorType, OutputPin};
 use embedded_hal_mock::eh1::MockError;
 use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction};

@@ -2,8 +2,8 @@
 
 use core::marker::PhantomData;
 
-use crate::number::{Fixed, Number};
-use crate::settings::Bases;
+use driveline::number::{Fixed, Number};
+use driveline::settings::Bases;
 
 /// A number that can be given as a fraction of a converter's range, and made of a converter's counts.
 pub trait Scaled: Number {
