@@ -3,6 +3,8 @@
 //! `doc/glossary.md` has the words. A retired name in backticks, `folder::name`, is no public item in that folder of
 //! `src`; a retired phrase in quotation marks is in no comment, message or page.
 
+mod citations;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
