@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::results::{Destination, check};
+use super::results::{Destination, check_writable};
 use super::{Failure, Progress, say, say_json};
 use crate::backlash::backlash_page;
 use crate::backlash::{Case, Comparison};
@@ -54,7 +54,7 @@ impl Backlash {
     /// A page that cannot be written.
     pub fn execute(&self) -> Result<(), Failure> {
         let file = Destination::page_unless(self.json, self.html.as_deref(), "backlash");
-        check(&[], &file)?;
+        check_writable(&[], &file)?;
         let mut mill = Case::mill();
         let tuning = &mut mill.tuning;
         tuning.wander = self.wander.unwrap_or(tuning.wander);

@@ -6,7 +6,7 @@ use clap::Args;
 use driveline::commissioning::{Error, TestConfig};
 use driveline_firmware::board::BOARDS;
 
-use super::results::{Destination, check};
+use super::results::{Destination, check_writable};
 use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
 use crate::commissioning::{Case, Trial, Verdict, in_qemu, named, of_file, on_host, verdict};
@@ -70,7 +70,7 @@ impl Commission {
         let case = self.case()?;
         let name = format!("{}-commissioning", case.name);
         let page = Destination::page_unless(self.json, self.html.as_deref(), &name);
-        check(&[Path::new(&self.machine)], &page)?;
+        check_writable(&[Path::new(&self.machine)], &page)?;
         let progress = Progress::of(STAGES.len() as u64);
         let mut last = u32::MAX;
         let seen = |tick: u64, stage: u32| {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::results::{Destination, check};
+use super::results::{Destination, check_writable};
 use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
 use crate::generator::{page, verdict};
@@ -48,7 +48,7 @@ impl Generator {
             return Err(Failure::usage(format!("no variant contains `{filter}`; there are {names}")));
         }
         let file = Destination::chosen("page", &self.html);
-        check(&[], [&file])?;
+        check_writable(&[], [&file])?;
         ready(&Need::to_run(variants.iter().map(|one| &one.board)))?;
         let progress = Progress::of(verdict::steps(&variants, !self.no_faults));
         let verdicts = verdict::run_all(&variants, !self.no_faults, &|text| progress.says(text), &|| progress.step())

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use driveline_firmware::board::BOARDS;
 
-use super::results::{Destination, check};
+use super::results::{Destination, check_writable};
 use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
 use crate::peers::{
@@ -56,7 +56,7 @@ impl Peers {
         }
         let file = Destination::page_unless(self.json, self.html.as_deref(), "peers");
         let markdown = self.markdown.as_ref().map(|path| Destination::chosen("tables", path));
-        check(&[], file.iter().chain(&markdown))?;
+        check_writable(&[], file.iter().chain(&markdown))?;
         ready(&Need::to_run(BOARDS))?;
         let wanted: Vec<&str> =
             scenes().filter(|scene| self.scene.is_empty() || self.scene.iter().any(|name| name == scene)).collect();

@@ -7,7 +7,7 @@ use std::time::Instant;
 use clap::Args;
 use driveline_firmware::board::BOARDS;
 
-use super::results::{Destination, all, check};
+use super::results::{Destination, all, check_writable};
 use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
 use crate::stamp::Stamp;
@@ -54,7 +54,7 @@ impl Report {
         let wanted = Wanted::scenes(&self.scene).map_err(Failure::usage)?;
         let file = Destination::chosen("page", &self.html);
         let markdown = self.markdown.as_ref().map(|path| Destination::chosen("tables", path));
-        check(&[], [Some(&file), markdown.as_ref()].into_iter().flatten())?;
+        check_writable(&[], [Some(&file), markdown.as_ref()].into_iter().flatten())?;
         ready(&Need::to_run(BOARDS))?;
         let began = Instant::now();
         let (jobs, mut survey) = jobs(&wanted, self.quick);

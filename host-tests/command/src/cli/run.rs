@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::balancing::{self, Wanted};
-use super::results::{Destination, check};
+use super::results::{Destination, check_writable};
 use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
 use crate::balancing::{Scene, scenes};
@@ -86,7 +86,7 @@ impl Run {
         }
         let plan = Plan::of(scene, variants, self.quick, self.sweep).map_err(Failure::usage)?;
         let file = Destination::page(self.html.as_deref(), scene);
-        check(&[], [&file])?;
+        check_writable(&[], [&file])?;
         ready(&Need::to_run(plan.boards()))?;
         let progress = Progress::of(plan.steps());
         let mut report = plan
