@@ -54,14 +54,14 @@
 //! bias the answer. Each line of the multisine gives the response of the acceleration `H = s^2 Theta/T`, through a Hann
 //! window, corrected for the hold of the torque and the mean of the angle over a block; to them
 //! `H = 1/J + (1/J_m - 1/J) s^2/(s^2 + 2 zeta w_r s + w_r^2) + R s^2` is fitted, the two-mass machine
-//! [Huang 1987 part 2] and the compliance R of all higher modes, with weights of noise in torque and angle. Deviations
-//! follow from the fit's curvature and its own residuals.
+//! [derived; headings: Huang 1987 ch. 3 to 7] and the compliance R of all higher modes, with weights of noise in torque
+//! and angle. Deviations follow from the fit's curvature and its own residuals.
 //!
 //! The gap is the angle from flank to flank at creep speed while friction holds the load. Each flank is measured under
 //! two torques and extrapolated to none, which removes the twist of the shafts.
 //!
 //! A gear that loses a share of its torque makes the machine look heavier when it drives and lighter when it is driven
-//! [Wang 1989 §1-3]: the mean of both ways is taken.
+//! [Huang 1987 tables 1-2 to 1-4]: the mean of both ways is taken.
 //!
 //! # Bounds
 //! Torque and travel stay within the [`TestSettings`], and so does the shaft, with the exceptions under Limits.

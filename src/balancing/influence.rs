@@ -1,6 +1,6 @@
 //! Influence coefficients: the change of each reading per unit weight in each plane.
 //!
-//! `v = A w + v0` [Notes ch. 5]: a row for each sensor at each speed, a column for each plane. A trial weight gives a
+//! `v = A w + v0` [Goodman 1964]: a row for each sensor at each speed, a column for each plane. A trial weight gives a
 //! column, `a = (v - v0) / w`.
 
 use super::error::Error;

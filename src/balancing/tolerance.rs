@@ -41,7 +41,7 @@ impl<T: Scalar> Tolerance<T> {
         }
     }
 
-    /// Permissible residual unbalance of the rotor (kg m): `U = G m / omega` [Notes ch. 5].
+    /// Permissible residual unbalance of the rotor (kg m): `U = G m / omega` [ISO 21940-11].
     ///
     /// # Errors
     /// [`Error::Setting`] with the index of the value that is not positive.

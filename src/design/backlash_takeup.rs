@@ -50,8 +50,8 @@ pub struct BacklashTakeUpDesign {
 impl TwoMass {
     /// Designs backlash take-up.
     ///
-    /// The approach speed is the impact over `sqrt(k J_m J_l/(J_m + J_l))` [Huang 1987 part 2], the damping
-    /// `2 zeta omega J_m` (derived; the motor's torque alone).
+    /// The approach speed is the impact over `sqrt(k J_m J_l/(J_m + J_l))` [derived; headings: Huang 1987 ch. 3 to 7],
+    /// the damping `2 zeta omega J_m` (derived; the motor's torque alone).
     ///
     /// # Panics
     /// At compile time in a constant, with the sentence of the [`Error`] that [`try_take_up`](Self::try_take_up)

@@ -15,8 +15,8 @@ pub struct BarredSpeeds<const K: usize> {
 }
 
 impl<const K: usize> BarredSpeeds<K> {
-    /// The ranges about the critical speeds `frequency/order` [Pfützner 1980 ch. 1], as wide as `margin` of them either
-    /// way, as far as they begin below `up_to` (rad/s). Ranges that touch are one.
+    /// The ranges about the critical speeds `frequency/order` [derived; heading: Pfützner 1980 ch. 1], as wide as
+    /// `margin` of them either way, as far as they begin below `up_to` (rad/s). Ranges that touch are one.
     ///
     /// `frequencies` (rad/s) of the torsional vibration, `orders` in multiples of a turn (a four-stroke engine has 1/2,
     /// 1, 3/2 ...).

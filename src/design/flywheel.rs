@@ -1,4 +1,4 @@
-//! A flywheel by the areas between driving and loading torque [Wang 1989 ch. 5, Notes ch. 5].
+//! A flywheel by the areas between driving and loading torque [Notes ch. 5].
 
 /// Energy swing A_max over a cycle (J) from the areas between the driving and the loading torque, in their order,
 /// positive where the driving torque is larger: the highest less the lowest of their running sum.

@@ -5,9 +5,9 @@
 //! closes. Both errors follow from the machine and its load cycle:
 //!
 //! - a change D that takes the time r sets off a swing of at most `D min(1, 2/(w r))` times the larger share of the
-//!   inertia [Huang 1987 part 2];
+//!   inertia [derived; headings: Huang 1987 ch. 3 to 7];
 //! - a gap that is crossed under the torque D closes at `v = sqrt(2 D gap/J_m)`, and the blow swings by `v sqrt(k J_r)`
-//!   [Huang 1987 part 2];
+//!   [derived; headings: Huang 1987 ch. 3 to 7];
 //! - a swing A in the shaft's torque is one of `A w/k J_m/J` in the load's speed, and decays as `exp(-zeta w t)` until
 //!   the next change.
 //!

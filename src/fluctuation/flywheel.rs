@@ -1,7 +1,7 @@
 //! The flywheel that is still missing, and whether it is one that is missing.
 //!
 //! For a constant inertia J the work of the outer torques over the cycle swings by A_max, and delta is A_max/(J
-//! omega_m^2) with the arithmetic mean [Wang 1989 ch. 5]; a flywheel of A_max/(omega_m^2 [delta]) less J does. Where
+//! omega_m^2) with the arithmetic mean [Notes ch. 5]; a flywheel of A_max/(omega_m^2 [delta]) less J does. Where
 //! the inertia varies with the angle that is wrong, for the speed then swings without any work at all. The energy
 //! balance holds always: `J(phi) omega^2/2` is the work W(phi) up to a constant. With a flywheel the speed follows from
 //! `(J(phi) + J_F) omega'^2/2 = W'(phi)`, with W' reduced by the motor's fall of torque with speed.

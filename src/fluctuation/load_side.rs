@@ -45,7 +45,7 @@ pub struct LoadSide {
     /// most.
     pub load: Fluctuations,
     /// Energy swing over the cycle, largest less least of the kinetic energy of both masses and the energy in the
-    /// shaft: A_max (J) [Wang 1989 ch. 5].
+    /// shaft: A_max (J) [Notes ch. 5].
     pub energy_swing: f64,
 }
 

@@ -2,8 +2,8 @@
 //! flank that it drives, and damps the shaft.
 //!
 //! A motor that accelerates freely through a gap meets the load at a relative speed delta omega, and the impact adds
-//! `delta omega sqrt(k J_m J_l/(J_m + J_l))` to the shaft's torque [Huang 1987 part 2]; a torque applied at once adds
-//! its share of the load's inertia a second time. So
+//! `delta omega sqrt(k J_m J_l/(J_m + J_l))` to the shaft's torque [derived; headings: Huang 1987 ch. 3 to 7]; a torque
+//! applied at once adds its share of the load's inertia a second time. So
 //!
 //! - the reach, the largest torque of the governor, rises by a step a tick while the shaft is on the flank that the
 //!   governor's torque drives. Then the torque builds up over part of a period of the resonance, and a shaft in contact

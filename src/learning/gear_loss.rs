@@ -1,7 +1,7 @@
 //! Friction of a gear, from the motor's torque up and down.
 //!
 //! At a steady speed under a load torque T the motor carries `T/eta` where it drives the load, and `eta T` where the
-//! load drives it [Wang 1989 §1-3]. From the two means, with `q = (up - down)/(up + down)`,
+//! load drives it [Huang 1987 tables 1-2 to 1-4]. From the two means, with `q = (up - down)/(up + down)`,
 //!
 //! ```text
 //! lambda = (1/eta - eta)/2 = q/sqrt(1 - q^2)

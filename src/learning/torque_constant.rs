@@ -1,8 +1,8 @@
 //! Torque constant and offset of the motor, from known loads up and down.
 //!
 //! The motor gives `gain tau + offset` where its inverter reports tau. Under a known load torque W at a steady speed
-//! the motor carries `W/eta` upwards and `eta W` downwards [Wang 1989 §1-3]. Of the reported torques up and down, the
-//! mean m and half of the difference d, follows
+//! the motor carries `W/eta` upwards and `eta W` downwards [Huang 1987 tables 1-2 to 1-4]. Of the reported torques up
+//! and down, the mean m and half of the difference d, follows
 //!
 //! ```text
 //! gain x + offset = W,   x = sqrt(m^2 - d^2);   x = m for a light load or none

@@ -111,7 +111,7 @@ impl Chain {
     }
 
     /// Refers the following elements with the losses of motoring: inertias and stiffnesses over the efficiency
-    /// [Huang 1987 ch. 1].
+    /// [Huang 1987 tables 1-2 to 1-4].
     #[must_use]
     pub const fn starting(mut self) -> Self {
         self.flow = Flow::Motoring;
@@ -119,7 +119,7 @@ impl Chain {
     }
 
     /// Refers the following elements with the losses of overhauling: inertias and stiffnesses times the efficiency
-    /// [Huang 1987 ch. 1].
+    /// [Huang 1987 tables 1-2 to 1-4].
     #[must_use]
     pub const fn braking(mut self) -> Self {
         self.flow = Flow::Overhauling;

@@ -2,11 +2,11 @@
 //!
 //! With crank radius r, connecting rod length l, `lambda = r/l` and the angle phi from the top dead centre, the
 //! connecting rod leans by beta, `sin beta = lambda sin phi`. The slider's travel from the dead centre is
-//! `s = r (1 - cos phi) + l (1 - cos beta)`. The energy `1/2 J(phi) omega^2` of everything that moves gives the
-//! inertia, and `J(phi) omega' + 1/2 J'(phi) omega^2 = tau` the motion [Wang 1989 (1-14), (1-15), §1-3].
+//! `s = r (1 - cos phi) + l (1 - cos beta)`. The energy `1/2 J(phi) omega^2` of everything that moves gives the inertia
+//! [Wang 1989 (1-15)], and `J(phi) omega' + 1/2 J'(phi) omega^2 = tau` the motion [derived].
 //!
 //! The connecting rod is exact: two point masses with its mass and centre of mass, and a correcting inertia (negative
-//! for a rod with heavy ends) [derived; heading: Pfützner 1980 ch. 3].
+//! for a rod with heavy ends) [derived].
 
 use core::f64::consts::TAU;
 
@@ -164,7 +164,7 @@ impl CrankSlider {
 
     /// Force of the reciprocating masses on the frame along the slider's path (N), away from the crank, at an angle
     /// (rad), a speed (rad/s) and an acceleration (rad/s2) of the crank: `m (s'' omega^2 + s' omega')`
-    /// [Notes ch. 5].
+    /// [derived; heading: Pfützner 1980 ch. 2].
     #[must_use]
     pub const fn mass_force(&self, angle: f64, speed: f64, acceleration: f64) -> f64 {
         let travel = self.travel(angle);
@@ -172,7 +172,8 @@ impl CrankSlider {
     }
 
     /// First and second order of that force at a steady speed (N): `m r omega^2` and `lambda m r omega^2`, the
-    /// amplitudes of `cos phi` and `cos 2 phi` [Notes ch. 5]. The truncation error is of the order of lambda cubed.
+    /// amplitudes of `cos phi` and `cos 2 phi` [derived; heading: Pfützner 1980 ch. 2]. The truncation error is of the
+    /// order of lambda cubed.
     #[must_use]
     pub const fn force_orders(&self, speed: f64) -> [f64; 2] {
         let first = self.reciprocating_mass().0 * self.radius.0 * speed * speed;

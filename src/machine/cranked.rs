@@ -68,7 +68,7 @@ impl Cranked {
     /// Inertia at the motor, and its derivative by the motor's angle, with the crank at an angle (rad) from its top
     /// dead centre.
     ///
-    /// Referred by the ratio r: `J_m + r^2 J(phi)`, `r^3 J'(phi)` [Wang 1989 (1-15)].
+    /// Referred by the ratio r: `J_m + r^2 J(phi)`, `r^3 J'(phi)` [derived from Wang 1989 (1-15)].
     #[must_use]
     pub const fn inertia(&self, crank_angle: f64) -> VariableInertia {
         let r = self.ratio();

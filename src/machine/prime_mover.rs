@@ -6,7 +6,7 @@
 //! | [`Parabola`] | through three points of a measured curve | [Wang 1989 (1-7)] |
 //! | [`Induction`] | with breakdown torque; with rotor resistance for cranes | [Wang 1989 (1-8)], Kloss 1909 |
 //! | [`Combustion`] | full-load curve, with a governor above rated speed | Leiderman; Jazar, Vehicle Dynamics, ch. 4 |
-//! | [`Shunt`], [`Series`] | direct-current motors from voltage, resistance and flux | [Wang 1989 §1-2] |
+//! | [`Shunt`], [`Series`] | direct-current motors from voltage, resistance and flux | derived; shapes: Wang 1989 §1-2 |
 //! | [`Characteristic`] | any of them, with its slope | |
 //! | [`ResistorStart`] | start of a slip-ring motor by resistors in steps | derived |
 //! | [`SoftStart`] | start by reduced voltage under a torque limit | derived |

@@ -1,4 +1,4 @@
-//! Equivalent quantities on another shaft of a gear train [Huang 1987 ch. 1, Wang 1989 §1-3].
+//! Equivalent quantities on another shaft of a gear train [Huang 1987 ch. 1, tables 1-2 to 1-4, Wang 1989 §1-3].
 //!
 //! The driving side supplies the loss: motoring, elements behind the gear count `1/efficiency` times at the motor;
 //! overhauling, `efficiency` times. Referring from the motor's side to the load's is the inverse.

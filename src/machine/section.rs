@@ -22,7 +22,7 @@ use super::error::{not_negative, positive};
 use super::{Density, Diameter, Error, Inertia, Length, ShearModulus, Stiffness};
 
 impl ShearModulus {
-    /// Steel, 79.3 GPa: E = 206 GPa over 2 (1 + 0.3) [EN 1993-1-1 takes 81 GPa, Wang 1989 80 GPa].
+    /// Steel, 79.3 GPa: E = 206 GPa over 2 (1 + 0.3) [EN 1993-1-1 takes 81 GPa].
     pub const STEEL: Self = Self(79.3e9);
 }
 

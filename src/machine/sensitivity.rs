@@ -1,7 +1,7 @@
 //! Sensitivity of a chain: changes at the motor when one of its parts is left out.
 //!
 //! A rule of thumb leaves out a drum below 10 % of its neighbours' inertia and a shaft ten times as stiff as the next
-//! one [Huang 1987 ch. 1]. Here each is left out in turn and the change is computed.
+//! one [Wang 1989 example 1-5]. Here each is left out in turn and the change is computed.
 
 use super::chain::{CAPACITY, Chain};
 use super::modes::lowest;

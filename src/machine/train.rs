@@ -17,8 +17,7 @@
 //! that closes a loop is twisted by the sum of those round the loop, with signs and no other factors. So the strain
 //! energy is `|R delta|^2`, with R from the tree's shafts. Where there are loops, R is from a triangulation of all
 //! shafts by Householder's reflections. Frequencies are the singular values of `R B / sqrt(J)`. `inv(J) K` is never
-//! formed; without loops R is diagonal, and the accuracy is that of a chain [Pfützner 1980 ch. 1, Demmel and Veselić
-//! 1992].
+//! formed; without loops R is diagonal, and the accuracy is that of a chain [Demmel and Veselić 1992].
 
 use super::chain::{CAPACITY, Chain, Shaft};
 use super::error::not_negative;

@@ -4,7 +4,7 @@ use super::error::{not_negative, positive};
 use super::{Damping, Error, Gap, Inertia, ReductionError, Stiffness, Torque};
 use crate::math::sqrt;
 
-/// A motor and a load joined by one damped shaft, all referred to the motor [Huang 1987 part 2].
+/// A motor and a load joined by one damped shaft, all referred to the motor [derived; headings: Huang 1987 ch. 3 to 7].
 ///
 /// `J_m phi_m'' = tau_m - tau_s`, `J_l phi_l'' = tau_s - tau_L`, `tau_s = k delta + d delta'` with the twist
 /// `delta = phi_m - phi_l`.

@@ -6,8 +6,8 @@
 //! J(phi) omega' = tau_m - tau_L - 1/2 J'(phi) omega^2
 //! ```
 //!
-//! [Wang 1989 (1-14), §1-3]. An observer of constant inertia takes the exchange of kinetic energy for load torque.
-//! Here it is reckoned with: the rigid observer of the mean inertia J is given the torque
+//! [derived; J(phi): Wang 1989 (1-15)]. An observer of constant inertia takes the exchange of kinetic energy for load
+//! torque. Here it is reckoned with: the rigid observer of the mean inertia J is given the torque
 //!
 //! ```text
 //! tau = tau_L + J/J(phi) (tau_m - tau_L - 1/2 J'(phi) omega^2)

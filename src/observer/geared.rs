@@ -1,6 +1,6 @@
 //! Gear losses, deducted from the motor's torque before an observer.
 //!
-//! The driving side supplies the loss [Wang 1989 §1-3, Huang 1987 ch. 1]: motoring, the motor carries T/eta for a shaft
+//! The driving side supplies the loss [Huang 1987 tables 1-2 to 1-4]: motoring, the motor carries T/eta for a shaft
 //! torque T; overhauling, only eta T. The difference is a friction of about lambda T, with lambda half of (1/eta - 1) +
 //! (1 - eta), that opposes the motion; at a standstill it takes any value up to that, and holds the gear. The remaining
 //! torque of the motor is

@@ -3,7 +3,7 @@
 //! The motor turns a pinion stand, which turns two rolls of 1150 mm by 2800 mm through slipper spindles. The rolls'
 //! inertia follows from their size (steel, 23 t each, two of 3.8 t m2, and as much again for spindles and couplings at
 //! their ends); the spindles' stiffness from two shafts of 0.55 m by 5 m side by side, softened by a quarter in their
-//! heads (G pi d^4/(32 l) [Wang 1989 (1-16)]); the gap is 2 mm of worn slipper at a radius of 0.2 m. The motor's
+//! heads (G pi d^4/(32 l) [Wang 1989 §1-3]); the gap is 2 mm of worn slipper at a radius of 0.2 m. The motor's
 //! inertia, its overload of 2.5 times rated torque and the first resonance of 12 to 16 Hz are of the size that is
 //! published for such stands. They are not those of one machine.
 //!

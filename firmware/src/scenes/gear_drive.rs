@@ -3,8 +3,8 @@
 //! A motor of 37 kW at 1475 r/min has 240 N m, and 0.4 kg m2 by makers' tables for frame size 225. Through a coupling
 //! and a spur pair it turns a rotary machine at 620 r/min. The pair has 21 and 50 teeth of module 4 mm and 40 mm width,
 //! and a contact ratio of 1.6. Its inertias and its mesh stiffness with one and two pairs of teeth in contact are of
-//! the size that Tang 1994 calculates with. The driven machine has 12 kg m2 on a shaft of 65 mm by 0.8 m. The figures
-//! are not those of one machine.
+//! the size of such a pair. The driven machine has 12 kg m2 on a shaft of 65 mm by 0.8 m. The figures are not those of
+//! one machine.
 //!
 //! The tooth mesh is far above the bandwidth of an observer on the motor: at speed they meet 516 times a second. It
 //! is in the full plant, with an error on every second tooth, with backlash and with the wheels' bearings; here the

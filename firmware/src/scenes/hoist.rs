@@ -1,9 +1,9 @@
 //! A bridge crane's hoist: 12 t on two falls of rope.
 //!
 //! A 116 kW, four-pole motor at 1480 r/min drives a 0.8 m drum through a gearbox of 31.5 and lifts 12 t at 0.98 m/s. On
-//! the motor's shaft sits the drum of the holding brake. The rope's stiffness at the load is that of the hoist in Huang
-//! 1987 (2.87 MN/m for 8.7 t on two falls); inertias and efficiency are of the size that makers' tables give for such a
-//! motor (frame size 315, 0.6 kg m2) and a two-stage gearbox. They are not those of one machine.
+//! the motor's shaft sits the drum of the holding brake. The rope's stiffness at the load is that of the hoist in
+//! [Huang 1987 ch. 1] (2.87 MN/m for 8.7 t on two falls); inertias and efficiency are of the size that makers' tables
+//! give for such a motor (frame size 315, 0.6 kg m2) and a two-stage gearbox. They are not those of one machine.
 
 mod learnt;
 mod machine;

@@ -1,8 +1,8 @@
 //! A conveyor's head drum behind a planetary set.
 //!
-//! The set is that of Wang 1989 example 1-4: sun 20, planets 35, ring 90 teeth of module 4 mm, three planets, 5.5 to 1.
-//! Its motor of 55 kW at 1480 r/min has 355 N m, and 0.5 kg m2 by makers' tables for frame size 250. The drum's shaft
-//! is 90 mm thick and 1.2 m long. Drum and its share of the belt have 55 kg m2.
+//! Sun 20, planets 35, ring 90 teeth of module 4 mm, three planets, 5.5 to 1: numbers of our own. The arrangement is
+//! that of [Wang 1989 example 1-4]. Its motor of 55 kW at 1480 r/min has 355 N m, and 0.5 kg m2 by makers' tables for
+//! frame size 250. The drum's shaft is 90 mm thick and 1.2 m long. Drum and its share of the belt have 55 kg m2.
 
 use driveline::configure::{Machine, Rating};
 use driveline::design::{

@@ -3,7 +3,7 @@
 //!
 //! An 18.5 kW, six-pole motor at 970 r/min (182 N m; makers' tables give 0.3 kg m2 for frame size 200) carries a
 //! flywheel of 4.5 kg m2 (0.62 m by 40 mm of steel). Gear wheel and crank disc have 40 kg m2, the eccentric shaft of
-//! 0.16 m by 0.32 m has 16 MN m/rad (G pi d^4/(32 l) [Wang 1989 (1-16)]); the crank has a radius of 80 mm, the rod 0.7
+//! 0.16 m by 0.32 m has 16 MN m/rad (G pi d^4/(32 l) [Wang 1989 §1-3]); the crank has a radius of 80 mm, the rod 0.7
 //! m, slider and upper die 2.5 t. A stroke blanks thick plate by a die with shear, over 40 degrees before the bottom,
 //! and takes some 9 kJ of the 26 kJ that the flywheel holds. The figures are of the size of a C-frame press of 80 t;
 //! they are not those of one machine.

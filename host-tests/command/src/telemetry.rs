@@ -112,6 +112,11 @@ impl Decoder {
         self.described(index).map_or_else(|| f64::from(word as i32), |channel| channel.value(word))
     }
 
+    /// Whether no sound frame came, but for records.
+    pub fn is_empty(&self) -> bool {
+        self.channels.is_empty() && self.unknown == 0
+    }
+
     /// Whether so many channels have described themselves.
     pub fn describes(&self, channels: usize) -> bool {
         self.channels.len() >= channels
@@ -160,7 +165,7 @@ fn unstuffed(frame: &[u8]) -> Option<Vec<u8>> {
 }
 
 /// CRC-16/CCITT, from its division: the remainder of the bits.
-fn crc(bytes: &[u8]) -> u16 {
+pub fn crc(bytes: &[u8]) -> u16 {
     let mut remainder = 0xffff_u16;
     for bit in bytes.iter().flat_map(|byte| (0..8).rev().map(move |place| byte >> place & 1)) {
         let out = remainder >> 15 ^ u16::from(bit);

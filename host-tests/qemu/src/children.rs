@@ -1,5 +1,5 @@
 //! Child processes and temporary files that do not outlive this one: ended and removed with their owner, and by
-//! Ctrl-C or SIGTERM where the program has asked for that.
+//! Ctrl-C, SIGTERM, SIGHUP or SIGQUIT where the program has asked for that.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -10,10 +10,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, exit};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-use rustix::process::{Pid, Signal, kill_process_group};
-use signal_hook::consts::{SIGINT, SIGTERM};
+use rustix::process::{Pid, Signal, WaitOptions, kill_process_group, test_kill_process_group, waitpid};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM};
 use signal_hook::iterator::Signals;
 use signal_hook::low_level::emulate_default_handler;
 use tempfile::TempDir;
@@ -23,7 +23,8 @@ struct Owned {
     /// Whether signals are caught; children are then in groups of their own.
     signals: bool,
     next: u64,
-    children: BTreeMap<u64, Pid>,
+    /// Leaders of groups, and whether they may have children in other groups and folders to remove.
+    children: BTreeMap<u64, (Pid, bool)>,
     /// Temporary files and folders.
     paths: BTreeMap<u64, PathBuf>,
 }
@@ -42,19 +43,32 @@ impl Owned {
     }
 }
 
-/// From now on Ctrl-C and SIGTERM end the children with theirs and remove the temporary files, before they end the
-/// program as ever.
+/// Longest wait for children that end their own children and folders. A QEMU at a pipe waits half a second in them.
+const GRACE: Duration = Duration::from_secs(3);
+
+/// From now on Ctrl-C, SIGTERM, SIGHUP and SIGQUIT end the children with theirs and remove the temporary files, before
+/// they end the program as ever. SIGHUP stays ignored where it is, as by `nohup`.
 ///
 /// # Errors
 /// What the system says.
 pub fn end_with_signals() -> io::Result<()> {
-    let mut signals = Signals::new([SIGINT, SIGTERM])?;
+    let hangup = (!ignores(SIGHUP)).then_some(SIGHUP);
+    let mut signals = Signals::new([SIGINT, SIGTERM, SIGQUIT].into_iter().chain(hangup))?;
     owned().signals = true;
     thread::Builder::new().name("signals".into()).spawn(move || {
         let Some(signal) = signals.forever().next() else { return };
         // held to the end: nothing begins any more, and nobody reports what is ended here as a failure
         let owned = owned();
-        for &child in owned.children.values() {
+        for &(child, nests) in owned.children.values() {
+            let _ = kill_process_group(child, if nests { Signal::TERM } else { Signal::KILL });
+        }
+        let begun = Instant::now();
+        for &(child, _) in owned.children.values().filter(|(_, nests)| *nests) {
+            // its leader is reaped here: until then its group exists
+            while begun.elapsed() < GRACE && test_kill_process_group(child).is_ok() {
+                let _ = waitpid(Some(child), WaitOptions::NOHANG);
+                thread::sleep(Duration::from_millis(5));
+            }
             let _ = kill_process_group(child, Signal::KILL);
         }
         for path in owned.paths.values() {
@@ -71,6 +85,13 @@ pub fn end_with_signals() -> io::Result<()> {
         exit(128 + signal);
     })?;
     Ok(())
+}
+
+/// Whether a signal was ignored when the program began, where the system says so.
+fn ignores(signal: i32) -> bool {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    ignored.is_some_and(|mask| u64::from_str_radix(mask.trim(), 16).is_ok_and(|mask| mask >> (signal - 1) & 1 == 1))
 }
 
 /// A child; ended with its owner.
@@ -97,7 +118,9 @@ impl Running {
         let child = command.spawn()?;
         let number = owned.number();
         if let (true, Some(pid)) = (leads, i32::try_from(child.id()).ok().and_then(Pid::from_raw)) {
-            owned.children.insert(number, pid);
+            // cargo runs tests and programs that are owners themselves
+            let nests = Path::new(command.get_program()).file_stem().is_some_and(|name| name == "cargo");
+            owned.children.insert(number, (pid, nests));
         }
         Ok(Running { child, number, leads })
     }

@@ -16,7 +16,8 @@
 //!
 //! Equations: `J_j w_j' = T_(j-1) - m_j T_j - c_j w_j - friction_j - load_j` `[Pfützner 1980 (1.6)]`, with the shaft
 //! torque `T_s = k (theta - G/2) + d dw` for `theta > G/2`, `k (theta + G/2) + d dw` for `theta < -G/2` and zero in
-//! the gap `[Huang 1987 part 2]`, and `m` the loss of the gear, `1/eta` driving and `eta` driven `[Wang 1989 §1-3]`.
+//! the gap `[derived; headings: Huang 1987 ch. 3 to 7]`, and `m` the loss of the gear, `1/eta` driving and `eta` driven
+//! `[Huang 1987 tables 1-2 to 1-4]`.
 //!
 //! Between events (a flank met or left, a stop, a slip, a reversal of the flow of power, a corner of an excitation)
 //! the equations are linear with constant coefficients and are propagated by their exponential; events are isolated

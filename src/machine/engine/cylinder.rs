@@ -13,9 +13,9 @@ const SAME: f64 = 1e-6;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum WorkingCycle {
-    /// One turn; orders 1, 2, 3 ... [Pfützner 1980 ch. 1].
+    /// One turn; orders 1, 2, 3 ... [derived].
     TwoStroke,
-    /// Two turns; orders 1/2, 1, 3/2 ... [Pfützner 1980 ch. 1].
+    /// Two turns; orders 1/2, 1, 3/2 ... [derived].
     FourStroke,
 }
 
@@ -166,7 +166,7 @@ impl Cylinder {
 }
 
 /// Phasor sum of an order over a mode's `shape` at each cylinder's throw: `|sum psi_j exp(-i nu alpha_j)|` with the
-/// firing angles alpha \[derived; excitation by orders: Pfützner 1980 (1.2a)-(1.2c)\].
+/// firing angles alpha \[derived; excitation by orders: Pfützner 1980 (1.2a) to (1.2c)\].
 ///
 /// Torque of the order times this sum is the mode's excitation. Cylinders beyond the shape's length do not count.
 #[must_use]

@@ -29,7 +29,7 @@ impl Harmonic {
 
 impl CrankSlider {
     /// Torque of the masses at the crank at a steady speed (rad/s): the sine amplitudes (N m) of the orders 0, 1, 2
-    /// ..., `N` of them; `-J'(phi) omega^2/2` [Pfützner 1980 (1.2a)-(1.2c); the connecting rod: derived].
+    /// ..., `N` of them; `-J'(phi) omega^2/2` [Pfützner 1980 (1.2a) to (1.2c); the connecting rod: derived].
     ///
     /// These are all powers of lambda: the second order of a massless rod is
     /// `-m r^2 omega^2 (1/2 + lambda^4/32 + ...)`. By 256 equidistant angles, which is exact to rounding for orders
@@ -52,7 +52,7 @@ impl CrankSlider {
     }
 
     /// Torque of the gas at the crank by orders (N m), from an indicator diagram: index `k` is `k` times the cycle's
-    /// lowest order, index 0 the mean [Pfützner 1980 (1.2a)-(1.2c)].
+    /// lowest order, index 0 the mean [Pfützner 1980 (1.2a) to (1.2c)].
     ///
     /// `pressure` (Pa) above that in the crankcase, at equidistant crank angles over a whole cycle, the first at the
     /// firing dead centre. It resolves the orders of an index below half its length.

@@ -3,7 +3,7 @@
 use crate::machine::error::{Error, not_negative, positive};
 use crate::machine::{Speed, Torque};
 
-/// A shunt or separately excited motor: `tau = c (U - c omega)/R` [Wang 1989 §1-2].
+/// A shunt or separately excited motor: `tau = c (U - c omega)/R` [derived; shape: Wang 1989 §1-2].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Shunt {
@@ -59,7 +59,7 @@ impl Shunt {
     }
 }
 
-/// A series motor: `tau = c I^2`, `I = U/(R + c omega)` [Wang 1989 §1-2]. Without load it runs away.
+/// A series motor: `tau = c I^2`, `I = U/(R + c omega)` [derived; shape: Wang 1989 §1-2]. Without load it runs away.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Series {

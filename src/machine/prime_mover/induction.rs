@@ -53,7 +53,7 @@ impl Induction {
     }
 
     /// The same motor with resistors at its slip rings: the rotor's whole resistance over its own. The breakdown torque
-    /// stays, its slip grows by that factor [Wang 1989 §1-2].
+    /// stays, its slip grows by that factor [derived; shape: Wang 1989 §1-2].
     ///
     /// # Panics
     /// At compile time in a constant, where the factor is not positive and finite.

@@ -106,7 +106,7 @@ impl Line {
     }
 }
 
-/// Peak of the shaft's torque in a start of two masses [Huang 1987 part 2]; see
+/// Peak of the shaft's torque in a start of two masses [derived; headings: Huang 1987 ch. 3 to 7]; see
 /// [`crate::machine::TwoMass::starting_peak`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -122,13 +122,14 @@ pub enum StartCondition {
 
 impl crate::machine::TwoMass {
     /// Torque that the shaft carries while both masses accelerate alike (N m): `(tau_m J_l + tau_L J_m)/(J_m + J_l)`
-    /// [Huang 1987 part 2].
+    /// [derived; headings: Huang 1987 ch. 3 to 7].
     #[must_use]
     pub const fn accelerating_torque(&self, motor: Torque, load: Torque) -> Torque {
         Torque((motor.0 * self.load_inertia + load.0 * self.motor_inertia) / self.total_inertia())
     }
 
-    /// Largest torque in the shaft after a constant motor torque sets in, undamped (N m) [Huang 1987 part 2].
+    /// Largest torque in the shaft after a constant motor torque sets in, undamped (N m) [derived; headings: Huang 1987
+    /// ch. 3 to 7].
     ///
     /// For a slack start motor and load torque must be positive. The motor crosses the gap, twists the shaft against
     /// the load that friction still holds, until the shaft carries the load's torque; then both swing about the
@@ -153,14 +154,14 @@ impl crate::machine::TwoMass {
         })
     }
 
-    /// Dynamic factor of a start: its largest torque over the load's torque [Huang 1987 part 2].
+    /// Dynamic factor of a start: its largest torque over the load's torque [derived; headings: Huang 1987 ch. 3 to 7].
     #[must_use]
     pub const fn dynamic_factor(&self, condition: StartCondition, motor: Torque, load: Torque) -> f64 {
         self.starting_peak(condition, motor, load).0 / load.0
     }
 
     /// Torque that an impact of the masses at a relative speed (rad/s) adds, undamped:
-    /// `delta_omega sqrt(k J_m J_l/(J_m + J_l))` (N m) [Huang 1987 part 2].
+    /// `delta_omega sqrt(k J_m J_l/(J_m + J_l))` (N m) [derived; headings: Huang 1987 ch. 3 to 7].
     #[must_use]
     pub const fn impact_torque(&self, relative_speed: f64) -> Torque {
         Torque(relative_speed * sqrt(self.stiffness * self.reduced_inertia()))

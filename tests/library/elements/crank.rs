@@ -85,7 +85,7 @@ fn mean_inertia_over_a_turn() {
 
 #[test]
 fn forces_of_the_masses_that_go_to_and_fro() {
-    // Notes ch. 5: m r omega^2 (cos phi + lambda cos 2 phi). What is left out begins with lambda^3/4 (cos 2 phi - cos 4
+    // Derived: m r omega^2 (cos phi + lambda cos 2 phi). What is left out begins with lambda^3/4 (cos 2 phi - cos 4
     // phi), at most half of lambda^3; the next power is lambda^2 smaller, a tenth.
     let light = CrankSlider { rod_mass: Mass(0.0), ..PRESS };
     let [first, second] = light.force_orders(30.0);

@@ -1,14 +1,14 @@
 //! The file of a campaign: its settings, and a line for each draw that is done.
 //!
 //! A line is appended when its draw is done, so that a campaign that was killed goes on where it was. Numbers are
-//! written so that they are read back to the bit. A file of other settings is refused, and so is one of another version
-//! of the library or the plant: the nominal machine's outcome stands among the settings.
+//! written so that they are read back to the bit, and each line ends with its check sum: a changed digit is refused. A
+//! file of other settings is refused, and so is one of another version of the library or the plant: the nominal
+//! machine's outcome stands among the settings.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs::{File, OpenOptions};
 use std::io::{Read as _, Seek as _, SeekFrom, Write as _};
-use std::os::unix::fs::FileTypeExt as _;
 use std::path::{Path, PathBuf};
 
 use driveline_qemu::children::Guard;
@@ -16,6 +16,7 @@ use tempfile::NamedTempFile;
 
 use super::figure::{FIGURES, Figure, Outcome};
 use crate::machine_file::factor::Tolerance;
+use crate::telemetry::crc;
 
 /// What a campaign is of.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +36,7 @@ pub struct Settings {
 }
 
 /// First line of a file.
-const FIRST: &str = "# driveline campaign 1";
+const FIRST: &str = "# driveline campaign 2";
 
 impl Settings {
     /// The scene.
@@ -55,7 +56,9 @@ impl Settings {
             let _ = writeln!(text, "# lacks {lacks}");
         }
         let names: Vec<&str> = Figure::ALL.iter().map(|figure| figure.name()).collect();
-        let _ = writeln!(text, "# columns: draw; {}", names.join("; "));
+        let _ = writeln!(text, "# columns: draw; {}; check sum", names.join("; "));
+        let sum = crc(text.as_bytes());
+        let _ = writeln!(text, "# check {sum:04x}");
         text
     }
 
@@ -92,7 +95,8 @@ fn numbers(outcome: &Outcome) -> String {
 }
 
 fn line(number: u64, outcome: &Outcome) -> String {
-    format!("{number}{}\n", numbers(outcome))
+    let text = format!("{number}{}", numbers(outcome));
+    format!("{text} {:04x}\n", crc(text.as_bytes()))
 }
 
 fn outcome(text: &str) -> Option<Outcome> {
@@ -101,23 +105,32 @@ fn outcome(text: &str) -> Option<Outcome> {
     Some(Outcome(numbers))
 }
 
+fn changed(name: &impl std::fmt::Display, line: usize, remedy: &str) -> String {
+    format!("{name}, line {line}: found a line that was changed, expected one with its check sum; {remedy}")
+}
+
 /// The settings and the draws of a file's text, and how many bytes of it are whole lines.
 fn parse(path: &Path, text: &str) -> Result<(Settings, BTreeMap<u64, Outcome>, usize), String> {
     let name = path.display();
-    let no_campaign = || {
-        format!(
-            "{name} is not a campaign file of this version: expected one that `campaign` has written, or a new name"
-        )
-    };
+    let no_campaign = || no_campaign(path);
     let settings = Settings::parse(text).ok_or_else(no_campaign)?;
     let begin = settings.text();
-    // the settings are as this version writes them
-    let lines = text.strip_prefix(&begin).ok_or_else(no_campaign)?;
+    // the settings are as this version writes them, with their check sum
+    let lines =
+        text.strip_prefix(&begin).ok_or_else(|| match begin.lines().zip(text.lines()).position(|(a, b)| a != b) {
+            Some(at) => changed(&name, at + 1, "merge or go on with an unchanged copy"),
+            None => no_campaign(),
+        })?;
     let whole = lines.rfind('\n').map_or(0, |at| at + 1);
     let mut outcomes = BTreeMap::new();
     for (at, line) in lines[..whole].lines().enumerate() {
+        let number = begin.lines().count() + at + 1;
+        let entry = line.rsplit_once(' ').and_then(|(line, sum)| Some((line, u16::from_str_radix(sum, 16).ok()?)));
+        let Some((line, _)) = entry.filter(|(line, sum)| crc(line.as_bytes()) == *sum) else {
+            return Err(changed(&name, number, "delete the line to run its draw again"));
+        };
         let entry = line.split_once(' ').and_then(|(number, rest)| Some((number.parse().ok()?, outcome(rest)?)));
-        let line = begin.lines().count() + at + 1;
+        let line = number;
         let Some((number, outcome)) = entry.filter(|(number, _)| *number < settings.draws) else {
             return Err(format!(
                 "{name}, line {line}: expected a draw below {} and {FIGURES} numbers; delete the line to run its draw \
@@ -134,17 +147,41 @@ fn parse(path: &Path, text: &str) -> Result<(Settings, BTreeMap<u64, Outcome>, u
     Ok((settings, outcomes, begin.len() + whole))
 }
 
+/// Largest file: a million draws have a third of it.
+const LARGEST: u64 = 1 << 30;
+
+/// The text of a file, refused at its first bytes where it is none of a campaign: what has no end, too.
+fn text(file: &File, path: &Path) -> Result<String, String> {
+    let system = |error: std::io::Error| format!("{}: {error}", path.display());
+    let (mut bytes, mut file) = (Vec::new(), file.take(LARGEST));
+    file.by_ref().take(FIRST.len() as u64).read_to_end(&mut bytes).map_err(system)?;
+    if !FIRST.as_bytes().starts_with(&bytes) {
+        return Err(no_campaign(path));
+    }
+    file.read_to_end(&mut bytes).map_err(system)?;
+    if file.limit() == 0 {
+        return Err(format!("{}: more than 1 GiB, expected a file of a campaign of at most 1 GiB", path.display()));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let line = error.as_bytes()[..error.utf8_error().valid_up_to()].iter().filter(|byte| **byte == b'\n').count();
+        changed(&path.display(), line + 1, "delete the line to run its draw again")
+    })
+}
+
+fn no_campaign(path: &Path) -> String {
+    format!(
+        "{} is not a campaign file of this version: expected one that `campaign` has written, or a new name",
+        path.display()
+    )
+}
+
 /// Reads a file.
 ///
 /// # Errors
-/// A sentence: it cannot be read, or is none.
+/// A sentence: it cannot be read, is none, or was changed.
 pub fn read(path: &Path) -> Result<(Settings, BTreeMap<u64, Outcome>), String> {
     let system = |error: std::io::Error| format!("{}: {error}", path.display());
-    // a device has no end
-    if path.metadata().map_err(system)?.file_type().is_char_device() {
-        return Err(format!("{} is a device and no file of a campaign", path.display()));
-    }
-    let text = std::fs::read_to_string(path).map_err(system)?;
+    let text = text(&File::open(path).map_err(system)?, path)?;
     parse(path, &text).map(|(settings, outcomes, _)| (settings, outcomes))
 }
 
@@ -173,8 +210,7 @@ impl Record {
         let mut file =
             OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path).map_err(system)?;
         file.try_lock().map_err(|error| format!("{name} is in use by another campaign: {error}"))?;
-        let mut text = String::new();
-        file.read_to_string(&mut text).map_err(system)?;
+        let text = text(&file, path)?;
         let begin = settings.text();
         if Settings::parse(&text).is_some_and(|fewer| settings.extends(&fewer)) {
             // beside it first: a kill loses nothing

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use clap::{Args, Subcommand};
 
-use super::results::{Destination, all, check};
+use super::results::{Destination, all, check, check_writable};
 use super::{Failure, Progress, say, say_json};
 use crate::campaign::compare::compare;
 use crate::campaign::drive::Drive;
@@ -330,7 +330,7 @@ impl Merge {
         let results = self.results.as_deref().map(|path| Destination::chosen("results", path));
         let page = Destination::page_unless(self.json, self.html.as_deref(), &page_name(&self.stem()));
         let sources: Vec<&Path> = self.files.iter().map(PathBuf::as_path).collect();
-        check(&sources, results.iter().chain(&page))?;
+        check_writable(&sources, results.iter().chain(&page))?;
         let summary = Summary::of(&settings, &outcomes);
         show(&summary, self.json)?;
         all([

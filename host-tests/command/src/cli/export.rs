@@ -15,7 +15,7 @@ use serde_json::json;
 use self::core::Core;
 use self::fmu::Of;
 use super::project::{Number, PartOptions, Project, is_free, name_of_c, write};
-use super::results::{Destination, check};
+use super::results::{Destination, check_writable};
 use super::setup::install;
 use super::{Failure, say, say_json};
 use crate::machine_file::{parse, text};
@@ -168,7 +168,7 @@ impl Export {
 
     fn fmu(&self, project: &Project, source: &str) -> Result<(), Failure> {
         let file = Destination::chosen("FMU", &self.out);
-        check(&[&self.file], [&file])?;
+        check_writable(&[&self.file], [&file])?;
         let (fmu, token) = fmu::fmu(project, source, self.of())?;
         file.write_and_say(&fmu, self.json)?;
         if self.json {

@@ -1,7 +1,9 @@
 //! Files that results go to: never a source, never one file twice, and whole or not at all.
 //!
-//! A command checks its files before it begins, prints what it found, and only then writes them. A file is written
-//! beside its place and renamed, so that what stood there is kept until the new one is complete.
+//! A command checks its files before it begins, prints what it found, and only then writes them: where the system lets
+//! nothing be written, the figures are printed all the same. Long work is not begun for a named file that cannot be
+//! written. A file is written beside its place and renamed, so that
+//! what stood there is kept until the new one is complete.
 
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Write};
@@ -25,18 +27,20 @@ pub struct Destination {
     path: PathBuf,
     /// Whether its folder is made where it is missing: that of the pages is, one that the user names may be a typo.
     makes_folder: bool,
+    /// Whether the user named it.
+    is_named: bool,
 }
 
 impl Destination {
     /// A path that the user chose.
     pub fn chosen(what: &'static str, path: &Path) -> Self {
-        Self { what, path: path.to_owned(), makes_folder: path.parent() == Some(Path::new(FOLDER)) }
+        Self { what, path: path.to_owned(), makes_folder: path.parent() == Some(Path::new(FOLDER)), is_named: true }
     }
 
     /// The page of a command: where `--html` says, else `report/NAME.html`.
     pub fn page(html: Option<&Path>, name: &str) -> Self {
         let usual = Path::new(FOLDER).join(format!("{name}.html"));
-        Self::chosen("page", html.unwrap_or(&usual))
+        Self { is_named: html.is_some(), ..Self::chosen("page", html.unwrap_or(&usual)) }
     }
 
     /// The page of a command that with `--json` writes one only where `--html` says.
@@ -86,8 +90,7 @@ impl Destination {
             file.write_all(bytes)?;
             return Ok(file);
         }
-        // through a symbolic link to the file that it leads to
-        let path = fs::canonicalize(&self.path).unwrap_or_else(|_| self.path.clone());
+        let path = behind_links(&self.path);
         let folder = folder_of(&path);
         if self.makes_folder {
             fs::create_dir_all(folder)?;
@@ -111,38 +114,45 @@ impl Destination {
     }
 
     /// Whether it can be written, as far as can be told without writing.
-    fn check(&self) -> Result<(), Failure> {
-        let unwritable = |error: io::Error| self.unwritable(&error);
-        match fs::metadata(&self.path) {
-            Ok(there) if there.is_dir() => {
-                return Err(Failure::usage(format!("{} is a folder; name a file in it", self.name())));
-            }
+    fn probe(&self) -> io::Result<()> {
+        let path = behind_links(&self.path);
+        match fs::metadata(&path) {
             Ok(there) if is_special(&there) => return Ok(()),
             // a file that may not be written may not be replaced either
-            Ok(_) => drop(OpenOptions::new().append(true).open(&self.path).map_err(unwritable)?),
+            Ok(_) => drop(OpenOptions::new().append(true).open(&path)?),
             Err(_) => {}
         }
-        let folder = folder_of(&self.path);
-        if self.makes_folder && !folder.exists() {
-            return probe(Path::new(".")).map_err(unwritable);
+        let folder = Some(folder_of(&path)).filter(|folder| folder.exists()).unwrap_or(Path::new("."));
+        let make = || tempfile::Builder::new().prefix(".driveline-").tempfile_in(folder);
+        Guard::around(make, NamedTempFile::path).map(|(_guard, file)| drop(file))
+    }
+
+    /// Whether it is a file in a folder that is there. What the system refuses is said when it is written.
+    fn check(&self) -> Result<(), Failure> {
+        let there = fs::metadata(&self.path);
+        if there.as_ref().is_ok_and(Metadata::is_dir) {
+            return Err(Failure::usage(format!("{} is a folder; name a file in it", self.name())));
         }
-        if !folder.is_dir() {
-            let there = folder.exists();
-            let folder = folder.display();
-            if there {
-                return Err(Failure::usage(format!("{}: {folder} is not a folder", self.name())));
-            }
-            return Err(Failure::usage(format!(
-                "{}: there is no folder {folder}; make it, or name another",
-                self.name()
-            )));
+        let path = behind_links(&self.path);
+        if path.is_symlink() {
+            return Err(Failure::usage(format!("{} is a link that leads to itself; name a file", self.name())));
         }
-        probe(folder).map_err(unwritable)
+        let folder = folder_of(&path);
+        if there.is_ok_and(|there| is_special(&there)) || folder.is_dir() || self.makes_folder && !folder.exists() {
+            return Ok(());
+        }
+        let (name, there) = (self.name(), folder.exists());
+        let folder = folder.display();
+        Err(Failure::usage(if there {
+            format!("{name}: {folder} is not a folder")
+        } else {
+            format!("{name}: there is no folder {folder}; make it, or name another")
+        }))
     }
 }
 
-/// Before any work: refuses files that are a source or one another, and what cannot be written. Standard output counts
-/// where it goes into a file. A source `-` is standard input.
+/// Before any work: refuses files that are a source or one another, and those whose folder is missing. Standard output
+/// counts where it goes into a file. A source `-` is standard input.
 ///
 /// # Errors
 /// The file and what is wrong with it.
@@ -167,6 +177,21 @@ pub fn check<'d>(sources: &[&Path], files: impl IntoIterator<Item = &'d Destinat
         }
         file.check()?;
         taken.push((identity, file.what));
+    }
+    Ok(())
+}
+
+/// The same before long work, and whether each file that the user named can be written.
+///
+/// # Errors
+/// As [`check`]; what the system says.
+pub fn check_writable<'d>(
+    sources: &[&Path],
+    files: impl IntoIterator<Item = &'d Destination> + Clone,
+) -> Result<(), Failure> {
+    check(sources, files.clone())?;
+    for file in files.into_iter().filter(|file| file.is_named) {
+        file.probe().map_err(|error| file.unwritable(&error))?;
     }
     Ok(())
 }
@@ -197,10 +222,13 @@ impl Identity {
         match fs::metadata(path) {
             Ok(there) if is_special(&there) => None,
             Ok(there) => Some(Self::There(there.dev(), there.ino())),
-            Err(_) => match (fs::metadata(folder_of(path)), path.file_name()) {
-                (Ok(folder), Some(name)) => Some(Self::New(folder.dev(), folder.ino(), name.into())),
-                _ => std::path::absolute(path).ok().map(Self::Far),
-            },
+            Err(_) => {
+                let path = behind_links(path);
+                match (fs::metadata(folder_of(&path)), path.file_name()) {
+                    (Ok(folder), Some(name)) => Some(Self::New(folder.dev(), folder.ino(), name.into())),
+                    _ => std::path::absolute(path).ok().map(Self::Far),
+                }
+            }
         }
     }
 }
@@ -214,10 +242,15 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Whether a file can be made in a folder; it is gone again.
-fn probe(folder: &Path) -> io::Result<()> {
-    let make = || tempfile::Builder::new().prefix(".driveline-").tempfile_in(folder);
-    Guard::around(make, NamedTempFile::path).map(|(_guard, file)| drop(file))
+/// Where a file is or would be made: behind all symbolic links, also behind those that lead to nothing yet.
+fn behind_links(path: &Path) -> PathBuf {
+    let mut path = path.to_owned();
+    // as many as Linux follows
+    for _ in 0..40 {
+        let Ok(next) = fs::read_link(&path) else { break };
+        path = folder_of(&path).join(next);
+    }
+    path
 }
 
 /// The system's words without the path of the file beside, which means nothing to the user.
@@ -267,6 +300,19 @@ mod tests {
         symlink(at("old"), at("link")).unwrap();
         let both = [Destination::chosen("table", &at("old")), Destination::chosen("page", &at("link"))];
         assert!(refused(&[], &both).contains("would hold both the table and the page"));
+        // links to a file that is not there yet, one behind the other
+        symlink("future", at("dangling")).unwrap();
+        symlink("sub/../dangling", at("second")).unwrap();
+        for (one, other) in [("future", "dangling"), ("dangling", "second"), ("second", "sub/../future")] {
+            let both = [Destination::chosen("table", &at(one)), Destination::chosen("page", &at(other))];
+            assert!(refused(&[], &both).contains("would hold both the table and the page"), "{one} {other}");
+        }
+        let page = Destination::chosen("page", &at("second"));
+        page.write("new").unwrap();
+        assert_eq!(fs::read_to_string(at("future")).unwrap(), "new");
+        assert!(at("dangling").is_symlink() && at("second").is_symlink());
+        symlink("loop", at("loop")).unwrap();
+        assert!(refused(&[], &[Destination::chosen("page", &at("loop"))]).contains("leads to itself"));
         let both = ["table", "page"].map(|what| Destination::chosen(what, &at("not/there")));
         assert_eq!(super::Identity::of(&both[0].path), super::Identity::of(&both[1].path));
         // what holds nothing can be written twice

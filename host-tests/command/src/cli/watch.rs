@@ -64,6 +64,12 @@ pub struct Watch {
     pub json: bool,
 }
 
+/// How often a line says what has come where no picture is drawn.
+const SAID: Duration = Duration::from_secs(5);
+
+/// Bytes without one sound frame after which a source is no telemetry: at 921,600 baud eleven seconds of them.
+const NO_TELEMETRY: u64 = 1 << 20;
+
 /// How often the picture is drawn, and what was recorded is put into the file: a stop by Ctrl-C loses no more.
 const DRAWN: Duration = Duration::from_millis(100);
 
@@ -121,12 +127,16 @@ impl Seen {
             let [name, unit] = [&course.channel.name, &course.channel.unit].map(|text| printable(text, LONGEST));
             format!("  {name:<16} {unit:<6} {last:>12} {least:>12} {most:>12}")
         };
+        [head].into_iter().chain(self.channels.iter().map(row)).chain([self.foot()]).collect()
+    }
+
+    fn foot(&self) -> String {
         let Seen { records, dropped, damaged, unknown, .. } = self;
         let mut foot = format!("{records} records, {dropped} dropped by the drive, {damaged} frames damaged");
         if *unknown > 0 {
             foot.push_str(&format!(", {unknown} of an unknown kind, from a later firmware"));
         }
-        [head].into_iter().chain(self.channels.iter().map(row)).chain([foot]).collect()
+        foot
     }
 }
 
@@ -144,7 +154,7 @@ impl Watch {
         let mut csv = table.map(Csv::new);
         let mut seen = Seen::default();
         let mut decoder = Decoder::default();
-        let (mut drawn, mut lines) = (Instant::now(), 0);
+        let (mut drawn, mut said, mut lines) = (Instant::now(), Instant::now(), 0);
         let in_terminal = io::stderr().is_terminal() && !self.json;
         let mut bytes = vec![0; 65_536];
         let mut unwritten = None;
@@ -167,7 +177,8 @@ impl Watch {
                 }
             });
             (seen.damaged, seen.unknown) = (decoder.damaged, decoder.unknown);
-            let ended = length == 0 || self.records.is_some_and(|most| seen.records >= most);
+            let is_none = decoder.bytes >= NO_TELEMETRY && decoder.is_empty() && seen.records == 0;
+            let ended = length == 0 || is_none || self.records.is_some_and(|most| seen.records >= most);
             if let Some(live) = &mut live {
                 live.show(&decoder, &seen, ended);
             }
@@ -183,6 +194,9 @@ impl Watch {
             if due || ended {
                 if in_terminal {
                     lines = draw(&seen.lines(), lines);
+                } else if !self.json && said.elapsed() >= SAID {
+                    let _ = writeln!(io::stderr(), "{} bytes: {}", decoder.bytes, seen.foot());
+                    said = Instant::now();
                 }
                 drawn = Instant::now();
             }

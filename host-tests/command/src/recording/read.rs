@@ -171,13 +171,27 @@ impl Recording {
 pub fn read_recording(path: &Path, asked: &Asked) -> Result<Recording, Diagnostic> {
     let name = printable(&path.display().to_string(), 200);
     let file = |error: std::io::Error| Diagnostic::of_file(&name, format!("no readable file ({error})"), "a CSV file");
-    let mut bytes = Vec::new();
-    File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes)).map_err(file)?;
-    if bytes.len() as u64 > LARGEST {
-        return Err(Diagnostic::of_file(&name, "more than 1 GiB", "at most 1 GiB: a part of the recording"));
+    let (mut bytes, mut opened) = (Vec::new(), File::open(path).map_err(file)?.take(LARGEST + 1));
+    let too_long = || Diagnostic::of_file(&name, "more than 1 GiB", "at most 1 GiB: a part of the recording");
+    if opened.get_ref().metadata().map_err(file)?.len() > LARGEST {
+        return Err(too_long());
     }
+    // what is no recording is refused by its first lines, before the rest is read: it may have no end
+    opened.by_ref().take(BEGINNING).read_to_end(&mut bytes).map_err(file)?;
     if bytes.iter().take(LEADING).any(|byte| *byte == 0) {
         return Err(encoded(&name, &bytes, 0, "UTF-16"));
+    }
+    let is_whole = (bytes.len() as u64) < BEGINNING;
+    if let (false, Ok(text)) = (is_whole, std::str::from_utf8(whole_lines(&bytes))) {
+        if text.is_empty() {
+            let expected = "a first line that names each column by quantity and unit";
+            return Err(Diagnostic::of_file(&name, "a line of more than 1 MiB", expected));
+        }
+        Head::of(Source { name: &name, text }, asked)?;
+    }
+    opened.read_to_end(&mut bytes).map_err(file)?;
+    if bytes.len() as u64 > LARGEST {
+        return Err(too_long());
     }
     match String::from_utf8(bytes) {
         Ok(text) => parse(&name, &text, asked),
@@ -187,6 +201,13 @@ pub fn read_recording(path: &Path, asked: &Asked) -> Result<Recording, Diagnosti
             Err(encoded(&name, &bytes, at, "ISO-8859-1"))
         }
     }
+}
+
+/// Bytes by which a file is known to be no recording.
+const BEGINNING: u64 = 1 << 20;
+
+fn whole_lines(bytes: &[u8]) -> &[u8] {
+    &bytes[..bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1)]
 }
 
 /// Bytes among which a text of two bytes a letter shows.
@@ -228,24 +249,43 @@ fn row(source: Source<'_>, position: Option<&csv::Position>, column: usize, deli
     start..start + line.len()
 }
 
+/// The first line of a table and what its columns are.
+struct Head<'a> {
+    reader: csv::Reader<&'a [u8]>,
+    delimiter: char,
+    headings: csv::StringRecord,
+    columns: Vec<Column>,
+    unused: Vec<String>,
+}
+
+impl<'a> Head<'a> {
+    fn of(source: Source<'a>, asked: &Asked) -> Result<Self, Diagnostic> {
+        let Source { name, text } = source;
+        let head = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or_default();
+        let delimiter = [';', '\t', ','].into_iter().find(|c| head.contains(*c)).unwrap_or(',');
+        let mut reader = csv::ReaderBuilder::new()
+            .delimiter(delimiter as u8)
+            .trim(csv::Trim::All)
+            .comment(Some(b'#'))
+            .flexible(true)
+            .from_reader(text.as_bytes());
+        let broken = |error: csv::Error| Diagnostic::of_file(name, error.to_string(), "a table in CSV");
+        let headings = reader.headers().map_err(broken)?.clone();
+        let place = row(source, headings.position(), usize::MAX, delimiter);
+        if headings.iter().all(|heading| number(heading, delimiter, &mut None).is_some()) {
+            let expected =
+                "a first line that names each column by quantity and unit, such as `time_s,torque_Nm,speed_rpm`";
+            return Err(Diagnostic::at(source, place, "", "no headings", expected));
+        }
+        let (columns, unused) = columns(source, &headings, asked, delimiter)?;
+        Ok(Self { reader, delimiter, headings, columns, unused })
+    }
+}
+
 fn parse(name: &str, text: &str, asked: &Asked) -> Result<Recording, Diagnostic> {
     let source = Source { name, text };
-    let head = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or_default();
-    let delimiter = [';', '\t', ','].into_iter().find(|c| head.contains(*c)).unwrap_or(',');
-    let mut reader = csv::ReaderBuilder::new()
-        .delimiter(delimiter as u8)
-        .trim(csv::Trim::All)
-        .comment(Some(b'#'))
-        .flexible(true)
-        .from_reader(text.as_bytes());
+    let Head { mut reader, delimiter, headings, columns, unused } = Head::of(source, asked)?;
     let broken = |error: csv::Error| Diagnostic::of_file(name, error.to_string(), "a table in CSV");
-    let headings = reader.headers().map_err(broken)?.clone();
-    let place = row(source, headings.position(), usize::MAX, delimiter);
-    if headings.iter().all(|heading| number(heading, delimiter, &mut None).is_some()) {
-        let expected = "a first line that names each column by quantity and unit, such as `time_s,torque_Nm,speed_rpm`";
-        return Err(Diagnostic::at(source, place, "", "no headings", expected));
-    }
-    let (columns, unused) = columns(source, &headings, asked, delimiter)?;
     let mut signals = vec![Vec::new(); columns.len()];
     let (mut lines, mut sign) = (Vec::new(), None);
     let mut commas: Vec<Commas> = columns.iter().map(|_| Commas::default()).collect();

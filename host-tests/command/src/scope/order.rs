@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use rustfft::num_complex::Complex;
 use serde::Serialize;
 
 use crate::recording::unwrapped;
@@ -37,22 +38,27 @@ pub fn orders(records: &[(f64, f64)]) -> Option<Vec<Order>> {
     let begin = end - way * whole;
     let first = unwrapped.iter().rposition(|(angle, _)| way * (end - angle) >= whole)?;
     let seen = (unwrapped.len() - first) as f64 / whole;
-    let of = |half: usize| {
-        let order = half as f64 / 2.0;
-        let (mut re, mut im) = (0.0, 0.0);
-        for pair in unwrapped[first..].windows(2) {
-            let [(mut a, mut x), (b, y)] = [pair[0], pair[1]];
-            if way * (end - a) > whole && a != b {
-                // the interval in which the turns begin
-                (a, x) = (begin, x + (y - x) * (begin - a) / (b - a));
-            }
-            let (sin, cos) = (TAU * order * a).sin_cos();
-            let (sin_b, cos_b) = (TAU * order * b).sin_cos();
-            re += 0.5 * (x * cos + y * cos_b) * (b - a);
-            im += 0.5 * (x * sin + y * sin_b) * (b - a);
+    let mut sums = [(0.0, 0.0); MOST];
+    for pair in unwrapped[first..].windows(2) {
+        let [(mut a, mut x), (b, y)] = [pair[0], pair[1]];
+        if way * (end - a) > whole && a != b {
+            // the interval in which the turns begin
+            (a, x) = (begin, x + (y - x) * (begin - a) / (b - a));
         }
+        // each half order is a turn of the one before: sine and cosine once a record, not once an order
+        let half = |angle: f64| Complex::from_polar(1.0, 0.5 * TAU * angle);
+        let (one, one_b) = (half(a), half(b));
+        let (mut wave, mut wave_b) = (one, one_b);
+        for (re, im) in &mut sums {
+            *re += 0.5 * (x * wave.re + y * wave_b.re) * (b - a);
+            *im += 0.5 * (x * wave.im + y * wave_b.im) * (b - a);
+            (wave, wave_b) = (wave * one, wave_b * one_b);
+        }
+    }
+    let of = |half: usize| {
+        let (re, im) = sums[half - 1];
         let (re, im) = (2.0 * re / (end - begin), 2.0 * im / (end - begin));
-        Order { order, amplitude: re.hypot(im), phase: im.atan2(re) }
+        Order { order: half as f64 / 2.0, amplitude: re.hypot(im), phase: im.atan2(re) }
     };
     Some((step..=MOST).step_by(step).filter(|&half| (half as f64) < seen).map(of).collect())
 }

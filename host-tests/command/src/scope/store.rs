@@ -2,6 +2,7 @@
 //! does not grow with what lies in it.
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 use serde::Serialize;
 
@@ -11,7 +12,8 @@ const BLOCK: usize = 256;
 /// The last records of a drive.
 #[derive(Debug)]
 pub struct Store {
-    blocks: VecDeque<Block>,
+    /// Shared with what is being saved.
+    blocks: VecDeque<Arc<Block>>,
     channels: usize,
     /// Records that are kept at most.
     keep: usize,
@@ -26,13 +28,44 @@ pub struct Store {
 }
 
 /// Successive records.
-#[derive(Debug, Default)]
-struct Block {
+#[derive(Clone, Debug, Default)]
+pub struct Block {
     ticks: Vec<u64>,
     /// A record after the other.
     values: Vec<f32>,
     least: Vec<f32>,
     most: Vec<f32>,
+}
+
+impl Block {
+    fn records(&self, channels: usize) -> impl Iterator<Item = (u64, &[f32])> {
+        self.ticks.iter().copied().zip(self.values.chunks_exact(channels.max(1)))
+    }
+}
+
+/// Records from one tick to another, taken block by block.
+#[derive(Debug)]
+pub struct Part {
+    blocks: VecDeque<Arc<Block>>,
+    from: u64,
+    to: u64,
+    channels: usize,
+}
+
+impl Part {
+    /// Those of its records that a block has.
+    pub fn records<'b>(&self, block: &'b Block) -> impl Iterator<Item = (u64, &'b [f32])> + use<'b> {
+        let (from, to) = (self.from, self.to);
+        block.records(self.channels).filter(move |(tick, _)| (from..=to).contains(tick))
+    }
+}
+
+impl Iterator for Part {
+    type Item = Arc<Block>;
+
+    fn next(&mut self) -> Option<Arc<Block>> {
+        self.blocks.pop_front()
+    }
 }
 
 /// A part of the records: for each of its places the least and the most of each channel since the place before.
@@ -105,9 +138,11 @@ impl Store {
         self.last = Some(at);
         if self.blocks.back().is_none_or(|block| block.ticks.len() == BLOCK) {
             let range = Range::new(self.channels);
-            self.blocks.push_back(Block { least: range.least, most: range.most, ..Block::default() });
+            let block = Block { least: range.least, most: range.most, ..Block::default() };
+            self.blocks.push_back(Arc::new(block));
         }
-        if let Some(block) = self.blocks.back_mut() {
+        // copied where a part holds it
+        if let Some(block) = self.blocks.back_mut().map(Arc::make_mut) {
             block.ticks.push(at);
             block.values.extend_from_slice(values);
             for (c, &value) in values.iter().enumerate() {
@@ -132,17 +167,22 @@ impl Store {
     }
 
     /// The blocks that hold ticks from one on.
-    fn from(&self, tick: u64) -> impl Iterator<Item = &Block> {
+    fn from(&self, tick: u64) -> impl Iterator<Item = &Arc<Block>> {
         let first = self.blocks.partition_point(|block| block.ticks.last().is_some_and(|&last| last < tick));
         self.blocks.range(first..)
     }
 
     /// The records from one tick to another, both included.
     pub fn records(&self, from: u64, to: u64) -> impl Iterator<Item = (u64, &[f32])> {
-        let records = self
-            .from(from)
-            .flat_map(|block| block.ticks.iter().copied().zip(block.values.chunks_exact(self.channels.max(1))));
+        let records = self.from(from).flat_map(|block| block.records(self.channels));
         records.skip_while(move |(tick, _)| *tick < from).take_while(move |(tick, _)| *tick <= to)
+    }
+
+    /// The same as they are now, whatever comes later.
+    pub fn part(&self, from: u64, to: u64) -> Part {
+        let begins_before = |block: &&Arc<Block>| block.ticks.first().is_some_and(|&first| first <= to);
+        let blocks = self.from(from).take_while(begins_before).map(Arc::clone).collect();
+        Part { blocks, from, to, channels: self.channels }
     }
 
     /// What lies from one tick to another, in at most so many places, and one more in each gap.
@@ -176,7 +216,7 @@ impl Store {
                 add(first, last, &block.least, &block.most);
                 continue;
             }
-            for (&tick, record) in block.ticks.iter().zip(block.values.chunks_exact(self.channels.max(1))) {
+            for (tick, record) in block.records(self.channels) {
                 if (from..=to).contains(&tick) {
                     add(tick, tick, record, record);
                 }
@@ -197,7 +237,7 @@ impl Store {
                 was_above = false;
                 continue;
             }
-            for (&tick, record) in block.ticks.iter().zip(block.values.chunks_exact(self.channels.max(1))) {
+            for (tick, record) in block.records(self.channels) {
                 if tick < after {
                     continue;
                 }

@@ -179,7 +179,8 @@ fn fifty_simulated_machines_are_found_within_their_own_deviations() {
     assert!(beyond * 20 <= all, "{beyond} of {all} figures are beyond three of their deviations");
 }
 
-/// Speed per torque of two masses [Huang 1987 part 2]: inertias 0.02 and 0.05, 800 N m/rad, 0.1 N m s/rad.
+/// Speed per torque of two masses [derived; headings: Huang 1987 ch. 3 to 7]: inertias 0.02 and 0.05, 800 N m/rad, 0.1
+/// N m s/rad.
 fn response(frequency: f64) -> [f64; 2] {
     let s2 = -frequency * frequency;
     // (J_l s^2 + d s + k)/(s (J_m J_l s^2 + (J_m + J_l)(d s + k)))

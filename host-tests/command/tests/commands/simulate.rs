@@ -17,8 +17,8 @@ fn machine(name: &str) -> String {
     format!("{}/trains/{name}.toml", env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Two masses on an undamped shaft under a constant torque: between 0 and twice the static torque `[Huang 1987 part
-/// 2]`.
+/// Two masses on an undamped shaft under a constant torque: between 0 and twice the static torque
+/// `[derived; headings: Huang 1987 ch. 3 to 7]`.
 const STEP: &str = "name = \"step\"\n\
     [[coordinate]]\nname = \"motor\"\ninertia = 1.2\n\
     [[coordinate]]\nname = \"load\"\ninertia = 0.3\n\

@@ -1,6 +1,7 @@
 //! The steps, in order: what is cheap and finds most comes first.
 
 use std::fs;
+use std::process::{Command, Stdio};
 
 use driveline_firmware::board::nucleo_g474re::FACTS as NUCLEO;
 use driveline_firmware::board::{BOARDS, Facts};
@@ -15,7 +16,7 @@ use driveline_qemu::measure::{Cost, self_test};
 use driveline_qemu::setup;
 
 /// All steps; the firmware, which is built board beside board, before the tests that use its images one by one.
-pub const STEPS: [Step; 11] = [
+pub const STEPS: [Step; 12] = [
     Step {
         name: "setup",
         content: "tools that are missing are installed",
@@ -34,6 +35,12 @@ pub const STEPS: [Step; 11] = [
         content: "every crate can be published",
         repeat: "cargo lab check --only packages",
         run: packages,
+    },
+    Step {
+        name: "deny",
+        content: "licences, versions, sources and advisories of dependencies, where `cargo deny` is installed",
+        repeat: "cargo lab check --only deny",
+        run: deny,
     },
     Step { name: "book", content: "both books build", repeat: "cargo lab check --only book", run: book },
     Step {
@@ -121,6 +128,29 @@ fn clippy(voice: &Voice) -> Result<Count, Failed> {
 /// Every crate can be published, in order; what they are packed from has been compiled by the step before.
 fn packages(voice: &Voice) -> Result<Count, Failed> {
     cargo::passes(&["publish", "--workspace", "--dry-run", "--no-verify", "--allow-dirty"], voice)
+}
+
+/// `cargo deny`, whose installation would take longer than all it does: a test of the book has its rules but for the
+/// advisories, which come over the network.
+fn deny(voice: &Voice) -> Result<Count, Failed> {
+    let runs = |words: &[&str]| {
+        let mut command = Command::new(setup::cargo());
+        let output = command.arg("deny").args(words).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+        output.status().is_ok_and(|status| status.success())
+    };
+    if !runs(&["--version"]) {
+        voice
+            .say("skipped: cargo deny is not installed (`cargo install --locked cargo-deny`), so no advisory was read");
+        return Ok(Count::default());
+    }
+    let check = ["deny", "--workspace", "--offline", "check"];
+    let mut count = cargo::passes(&[&check[..], &["bans", "licenses", "sources"]].concat(), voice)?;
+    if runs(&["--workspace", "fetch", "db"]) {
+        count.passed += cargo::passes(&[&check[..], &["advisories"]].concat(), voice)?.passed;
+    } else {
+        voice.say("skipped: the advisories of RustSec cannot be reached");
+    }
+    Ok(count)
 }
 
 /// Both books build; a test checks their links.

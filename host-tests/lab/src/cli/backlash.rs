@@ -6,7 +6,7 @@ use clap::Args;
 
 use crate::backlash::backlash_page;
 use crate::backlash::{Case, Comparison};
-use cargo_driveline::cli::results::{Destination, check};
+use cargo_driveline::cli::results::{Destination, check_writable};
 use cargo_driveline::cli::{Failure, Progress, say, say_json};
 
 /// Compare approaches to an observer with backlash, over random reversals of six machines with the full solver.
@@ -54,7 +54,7 @@ impl Backlash {
     /// A page that cannot be written.
     pub fn execute(&self) -> Result<(), Failure> {
         let file = Destination::page_unless(self.json, self.html.as_deref(), "backlash");
-        check(&[], &file)?;
+        check_writable(&[], &file)?;
         let mut mill = Case::mill();
         let tuning = &mut mill.tuning;
         tuning.wander = self.wander.unwrap_or(tuning.wander);

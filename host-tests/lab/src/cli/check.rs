@@ -55,7 +55,7 @@ impl Check {
     pub fn execute(&self) -> Result<(), Failure> {
         workspace().map_err(|error| Failure::usage(error.to_string()))?;
         let file = self.markdown.as_ref().map(|path| results::Destination::chosen("results", path));
-        results::check(&[], file.as_ref())?;
+        results::check_writable(&[], file.as_ref())?;
         let mut page = self.markdown.as_deref().map(Page::read).transpose().map_err(|error| {
             let path = self.markdown.as_deref().unwrap_or(Path::new("")).display();
             Failure::usage(format!("{path}: {error}"))

@@ -7,7 +7,7 @@ use driveline::commissioning::{Error, TestConfig};
 use driveline_firmware::board::BOARDS;
 
 use crate::commissioning::{Case, Trial, Verdict, in_qemu, named, of_file, on_host, verdict};
-use cargo_driveline::cli::results::{Destination, check};
+use cargo_driveline::cli::results::{Destination, check_writable};
 use cargo_driveline::cli::setup::ready;
 use cargo_driveline::cli::{Failure, Progress, say, say_json};
 use cargo_driveline::machine_file::{Diagnostic, MachineFile, Source, parse, text};
@@ -70,7 +70,7 @@ impl Commission {
         let case = self.case()?;
         let name = format!("{}-commissioning", case.name);
         let page = Destination::page_unless(self.json, self.html.as_deref(), &name);
-        check(&[Path::new(&self.machine)], &page)?;
+        check_writable(&[Path::new(&self.machine)], &page)?;
         let progress = Progress::of(STAGES.len() as u64);
         let mut last = u32::MAX;
         let seen = |tick: u64, stage: u32| {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::generator::{page, verdict};
-use cargo_driveline::cli::results::{Destination, check};
+use cargo_driveline::cli::results::{Destination, check_writable};
 use cargo_driveline::cli::setup::ready;
 use cargo_driveline::cli::{Failure, Progress, say, say_json};
 use driveline_qemu::setup::Need;
@@ -48,7 +48,7 @@ impl Generator {
             return Err(Failure::usage(format!("no variant contains `{filter}`; there are {names}")));
         }
         let file = Destination::chosen("page", &self.html);
-        check(&[], [&file])?;
+        check_writable(&[], [&file])?;
         ready(&Need::to_run(variants.iter().map(|one| &one.board)))?;
         let progress = Progress::of(verdict::steps(&variants, !self.no_faults));
         let verdicts = verdict::run_all(&variants, !self.no_faults, &|text| progress.says(text), &|| progress.step())

@@ -10,7 +10,7 @@ use crate::peers::{
     solvers,
 };
 use crate::stamp::Stamp;
-use cargo_driveline::cli::results::{Destination, check};
+use cargo_driveline::cli::results::{Destination, check_writable};
 use cargo_driveline::cli::setup::ready;
 use cargo_driveline::cli::{Failure, Progress, say, say_json};
 use driveline_qemu::setup::Need;
@@ -56,7 +56,7 @@ impl Peers {
         }
         let file = Destination::page_unless(self.json, self.html.as_deref(), "peers");
         let markdown = self.markdown.as_ref().map(|path| Destination::chosen("tables", path));
-        check(&[], file.iter().chain(&markdown))?;
+        check_writable(&[], file.iter().chain(&markdown))?;
         ready(&Need::to_run(BOARDS))?;
         let wanted: Vec<&str> =
             scenes().filter(|scene| self.scene.is_empty() || self.scene.iter().any(|name| name == scene)).collect();

@@ -10,7 +10,7 @@ use driveline_firmware::board::BOARDS;
 use crate::stamp::Stamp;
 use crate::survey::{Wanted, jobs, work};
 use crate::survey::{survey_markdown, survey_page, survey_table};
-use cargo_driveline::cli::results::{Destination, all, check};
+use cargo_driveline::cli::results::{Destination, all, check_writable};
 use cargo_driveline::cli::setup::ready;
 use cargo_driveline::cli::{Failure, Progress, say, say_json};
 use driveline_qemu::setup::Need;
@@ -54,7 +54,7 @@ impl Report {
         let wanted = Wanted::scenes(&self.scene).map_err(Failure::usage)?;
         let file = Destination::chosen("page", &self.html);
         let markdown = self.markdown.as_ref().map(|path| Destination::chosen("tables", path));
-        check(&[], [Some(&file), markdown.as_ref()].into_iter().flatten())?;
+        check_writable(&[], [Some(&file), markdown.as_ref()].into_iter().flatten())?;
         ready(&Need::to_run(BOARDS))?;
         let began = Instant::now();
         let (jobs, mut survey) = jobs(&wanted, self.quick);

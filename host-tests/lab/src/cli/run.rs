@@ -10,7 +10,7 @@ use crate::campaign::SCENES as CAMPAIGNS;
 use crate::campaign::sample;
 use crate::drivetrains::{Plan, SCENES, Variants};
 use cargo_driveline::campaign::drive::Drive;
-use cargo_driveline::cli::results::{Destination, check};
+use cargo_driveline::cli::results::{Destination, check_writable};
 use cargo_driveline::cli::setup::ready;
 use cargo_driveline::cli::{Failure, Progress, say, say_json};
 use driveline_closed_loop::departure::Departure;
@@ -86,7 +86,7 @@ impl Run {
         }
         let plan = Plan::of(scene, variants, self.quick, self.sweep).map_err(Failure::usage)?;
         let file = Destination::page(self.html.as_deref(), scene);
-        check(&[], [&file])?;
+        check_writable(&[], [&file])?;
         ready(&Need::to_run(plan.boards()))?;
         let progress = Progress::of(plan.steps());
         let mut report = plan

@@ -19,8 +19,8 @@ pub struct Factor {
 }
 
 impl Factor {
-    /// K, the peak over the rigid machine's [Wang 1989 ch. 2]; none where that carries nothing, or is not known for a
-    /// crank.
+    /// K, the peak over the rigid machine's [derived; headings: Huang 1987 ch. 3 to 7]; none where that carries
+    /// nothing, or is not known for a crank.
     pub fn k(&self) -> Option<f64> {
         (self.rigid > 0.0).then(|| self.peak / self.rigid)
     }

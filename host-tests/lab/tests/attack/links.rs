@@ -88,5 +88,8 @@ fn no_result_is_written_onto_another() {
         symlink("there", place.at("link")).unwrap();
         refused(&place, line, &[(one, "there"), (other, "link")], "would hold both");
         refused(&place, line, &[(one, "new"), (other, "./new")], "would hold both");
+        // a link to a file that is not there yet
+        symlink("new", place.at("dangling")).unwrap();
+        refused(&place, line, &[(one, "new"), (other, "dangling")], "would hold both");
     }
 }

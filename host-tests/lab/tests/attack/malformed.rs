@@ -150,3 +150,69 @@ fn xml(random: &mut Random, description: &str) -> String {
     }
     parts.join("\"")
 }
+
+/// What has no end, no begin or no content is refused in little time and memory by every command that reads a file.
+#[test]
+fn special_files_are_refused_and_named() {
+    let mut place = super::cases::sources();
+    place.put("line.txt", &vec![b'x'; 3 << 20]);
+    place.put("nul.txt", &[0; 4096]);
+    std::os::unix::fs::symlink("loop", place.at("loop")).unwrap();
+    std::os::unix::fs::symlink("nowhere", place.at("dangling")).unwrap();
+    std::fs::create_dir(place.at("folder")).unwrap();
+    for file in ["/dev/zero", "/dev/urandom", "/dev/null", "line.txt", "nul.txt", "loop", "dangling", "folder"] {
+        for line in [
+            "modes FILE",
+            "simulate FILE",
+            "rotor FILE",
+            "balancing FILE",
+            "design FILE",
+            "identify FILE --rate 1000",
+            "replay FILE --machine machine.toml",
+            "campaign FILE --draws 2",
+            "campaign merge FILE one.draws",
+            "cosim FILE FILE",
+            "watch FILE",
+        ] {
+            // half a gibibyte of addresses: what is read to its end does not fit
+            let program = env!("CARGO_BIN_EXE_cargo-driveline");
+            let line = line.replace("FILE", file);
+            let mut command = place.command("/bin/sh");
+            command.args(["-c", &format!("ulimit -v 524288; exec '{program}' {line}")]);
+            let begun = std::time::Instant::now();
+            let ended = place.piped(command);
+            let said = ended.said();
+            assert!(matches!(ended.code, Some(1 | 2)), "{line}: {:?} {:?} {said}", ended.code, ended.signal);
+            assert!(said.starts_with("error: ") && said.contains(file), "{line}: {said}");
+            assert!(begun.elapsed().as_secs() < 20, "{line}: {:?}", begun.elapsed());
+        }
+    }
+}
+
+/// Any digit of a campaign's results that is changed is refused with its line.
+#[test]
+fn a_changed_digit_of_results_is_refused_with_its_line() {
+    let mut place = super::cases::sources();
+    let text = super::cases::campaign()[0].clone();
+    let digits: Vec<usize> = text.match_indices(|c: char| c.is_ascii_digit()).map(|(at, _)| at).collect();
+    for at in digits {
+        let mut bytes = text.clone().into_bytes();
+        bytes[at] = b'0' + (bytes[at] - b'0' + 1) % 10;
+        place.put("changed.draws", &bytes);
+        let path = place.at("changed.draws");
+        let line = text[..=at].lines().count();
+        match cargo_driveline::campaign::record::read(&path) {
+            // the version
+            Err(sentence) if line == 1 => assert!(sentence.contains("of this version"), "{sentence}"),
+            // the settings have one check sum, on their last line
+            Err(sentence) => {
+                let is_setting = |line: usize| text.lines().nth(line - 1).unwrap().starts_with('#');
+                let last = (line..).take_while(|&line| is_setting(line)).last().unwrap_or(line);
+                let has = |line: usize| sentence.contains(&format!("changed.draws, line {line}: "));
+                let is_unread = sentence.contains("of this version") && is_setting(line);
+                assert!(has(line) || has(last) || is_unread, "{at}: {sentence}");
+            }
+            Ok(_) => panic!("digit {at} in line {line} was read"),
+        }
+    }
+}

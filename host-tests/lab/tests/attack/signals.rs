@@ -1,5 +1,5 @@
-//! Ctrl-C and SIGTERM at any moment of a run: no process, folder, pipe or half page is left, and nothing is reported as
-//! a failure of its own.
+//! Ctrl-C, SIGTERM, SIGHUP and SIGQUIT at any moment of a run: no process, folder, pipe or half page is left, and
+//! nothing is reported as a failure of its own.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -57,7 +57,7 @@ fn at_moments(line: &str, moments: u64, seconds: f64) {
         while begun.elapsed().as_secs_f64() < delay && child.try_wait().unwrap().is_none() {
             std::thread::sleep(Duration::from_millis(1));
         }
-        let signal = if moment % 2 == 0 { Signal::TERM } else { Signal::INT };
+        let signal = [Signal::TERM, Signal::INT, Signal::HUP, Signal::QUIT][moment as usize % 4];
         let pid = Pid::from_raw(i32::try_from(child.id()).unwrap()).unwrap();
         if child.try_wait().unwrap().is_none() {
             kill_process(pid, signal).unwrap();
@@ -111,6 +111,7 @@ fn signals_at_fifty_moments() {
         (report, 12, 20.0),
         ("campaign spindle --results WORK/draws --draws 1000", 12, 10.0),
         (&*cosim, 12, 12.0),
+        ("check", 12, 30.0),
         ("watch --qemu spindle/f32/rigid/10000 --records 2000000 --csv WORK/run.csv", 8, 10.0),
     ];
     for (line, moments, seconds) in runs {

@@ -1,21 +1,30 @@
 //! The page of dependencies against `cargo metadata`: what is depended on, under which licence, and from where.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
 
 use serde_json::Value;
 
 use super::pages::{Page, root};
 
-/// Licences of which one must be offered.
-const ALLOWED: [&str; 6] = ["MIT", "Apache-2.0", "0BSD", "Zlib", "BSD-3-Clause", "Unicode-3.0"];
-
-/// Packages under MPL-2.0, which tests use and nothing ships.
-const IN_TESTS: [&str; 2] = ["alterable_logger", "colored"];
-
 /// The crates in workspaces of their own, and what they are compiled for.
 const EXAMPLES: [&str; 3] = ["examples/rtic", "examples/embassy", "host-tests/peers"];
 const EXAMPLES_TARGET: &str = "thumbv7em-none-eabihf";
+
+/// The rules, as `cargo deny` reads them.
+fn rules() -> toml::Table {
+    toml::from_str(&std::fs::read_to_string(root().join(".cargo/deny.toml")).unwrap()).unwrap()
+}
+
+fn words(list: &toml::Value) -> Vec<&str> {
+    list.as_array().unwrap().iter().map(|word| word.as_str().unwrap()).collect()
+}
+
+/// Packages with a licence that is allowed to them alone.
+fn exceptions(rules: &toml::Table) -> BTreeMap<&str, Vec<&str>> {
+    let exceptions = rules["licenses"]["exceptions"].as_array().unwrap().iter();
+    exceptions.map(|one| (one["crate"].as_str().unwrap(), words(&one["allow"]))).collect()
+}
 
 /// Of the workspace.
 fn metadata() -> Value {
@@ -89,11 +98,12 @@ fn offers(expression: &str, allowed: &[&str]) -> bool {
 /// Every package, however far down, comes from the registry and offers a licence that may be combined with ours.
 #[test]
 fn every_package_has_an_allowed_licence_and_comes_from_the_registry() {
-    let all = all_metadata();
+    let (all, rules) = (all_metadata(), rules());
+    let (usual, exceptions) = (words(&rules["licenses"]["allow"]), exceptions(&rules));
     let mut wrong = Vec::new();
     for package in all.iter().flat_map(packages).filter(|package| !is_ours(package)) {
         let (name, licence) = (text(package, "name"), text(package, "license"));
-        let allowed = offers(licence, &ALLOWED) || IN_TESTS.contains(&name) && offers(licence, &["MPL-2.0"]);
+        let allowed = offers(licence, &usual) || exceptions.get(name).is_some_and(|own| offers(licence, own));
         if !allowed || !text(package, "source").starts_with("registry+https://github.com/rust-lang/crates.io-index") {
             wrong.push(format!("{name}: {licence:?}, {}", text(package, "source")));
         }
@@ -113,11 +123,33 @@ fn packages_under_mpl_are_reached_from_tests_alone() {
         let has = |node: &&Value| node["dependencies"].as_array().unwrap().iter().any(|id| named(id) == Some(name));
         nodes.filter(has).filter_map(|node| named(&node["id"]).map(str::to_owned)).collect()
     };
-    for name in IN_TESTS {
+    for name in exceptions(&rules()).into_keys() {
         assert_eq!(above(name), ["defmt-decoder"], "{name}");
     }
     assert_eq!(above("defmt-decoder"), ["driveline-defmt-log"]);
     assert!(above("driveline-defmt-log").is_empty());
+}
+
+/// No package has two versions but those that the rules name, and they name no other.
+#[test]
+fn one_version_of_each_package_but_for_those_named() {
+    let arguments = ["tree", "--workspace", "--all-features", "--locked", "--duplicates", "--depth=0", "--prefix=none"];
+    let output = Command::new(env!("CARGO")).args(arguments).current_dir(root()).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    // the same version for the host's programs and for the target is one
+    let tree = String::from_utf8(output.stdout).unwrap();
+    let mut found: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    for (name, version) in tree.lines().filter_map(|line| line.split_once(" v")) {
+        found.entry(name).or_default().insert(version.split(' ').next().unwrap_or_default());
+    }
+    found.retain(|_, versions| versions.len() > 1);
+    let rules = rules();
+    for one in rules["bans"]["skip"].as_array().unwrap() {
+        let (name, version) = one["crate"].as_str().unwrap().split_once('@').unwrap();
+        assert!(found.get_mut(name).is_some_and(|all| all.remove(version)), "{name}@{version} is named, and is none");
+    }
+    found.retain(|_, versions| versions.len() > 1);
+    assert!(found.is_empty(), "{found:?}: several versions that .cargo/deny.toml does not name");
 }
 
 #[test]

@@ -274,7 +274,7 @@ fn ticks_that_do_not_run_leave_the_decay_its_time() {
 }
 
 /// A motor that holds four fifths of the weight: behind a worm that keeps 0.7 of the power backwards the load stays,
-/// behind one that keeps 0.9 it sinks [Wang 1989 §1-3].
+/// behind one that keeps 0.9 it sinks [Huang 1987 tables 1-2 to 1-4].
 #[test]
 fn losses_backwards_reach_the_plant_of_a_file() {
     let text = include_str!("../../../command/machines/hoist.toml");

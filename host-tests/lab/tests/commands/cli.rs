@@ -76,7 +76,8 @@ fn modes_as_json_are_those_of_the_closed_form() {
     std::fs::write(&file, format!("{elements}{settings}")).unwrap();
     let output = driveline(&["modes", file.to_str().unwrap(), "--json"]);
     let modes = json(&out(&output));
-    // omega^2 = k (J1 + J2)/(J1 J2) = 500 and, with the motor locked, k/J2 = 200 [Huang 1987 part 2].
+    // omega^2 = k (J1 + J2)/(J1 J2) = 500 and, with the motor locked, k/J2 = 200 [derived; headings: Huang 1987 ch. 3
+    // to 7].
     let frequency = modes["resonances"][0]["frequency"].as_f64().unwrap();
     assert!((frequency / 500f64.sqrt() - 1.0).abs() < 1e-14);
     assert!((modes["antiresonances"][0].as_f64().unwrap() / 200f64.sqrt() - 1.0).abs() < 1e-14);
@@ -272,6 +273,22 @@ fn a_page_that_cannot_be_written_is_found_before_anything_runs() {
         let output = driveline(&["run", "--html", "/proc/page.html"]);
         assert_eq!(output.status.code(), Some(1));
         assert!(err(&output).contains("page.html cannot be written") && !err(&output).contains("building"));
+    }
+}
+
+/// Where nothing can be written, not even by root, the figures are printed all the same, and the failure is said.
+#[test]
+#[cfg(target_os = "linux")]
+fn figures_are_printed_where_no_page_can_be_written() {
+    for (arguments, folder) in
+        [(vec!["modes", HOIST], "/proc"), (vec!["modes", HOIST, "--html", "/proc/page.html"], ".")]
+    {
+        let program = env!("CARGO_BIN_EXE_cargo-driveline");
+        let output = Command::new(program).args(&arguments).current_dir(folder).output().unwrap();
+        assert_eq!(output.status.code(), Some(1));
+        assert!(err(&output).contains("cannot be written"), "{}", err(&output));
+        let there = driveline(&["modes", HOIST, "--json"]);
+        assert!(out(&output).lines().count() > 10 && there.status.success(), "{}", out(&output));
     }
 }
 

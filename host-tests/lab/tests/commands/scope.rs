@@ -282,3 +282,75 @@ fn the_scope_runs_in_a_browser() {
     let own = format!("http://{}/", scope.address);
     assert!(page.asked.iter().all(|asked| asked.starts_with(&own) || asked.starts_with("data:")), "{:?}", page.asked);
 }
+
+/// Clients that send half a request, that never read, that announce huge lengths: another is answered at once, by few
+/// threads. 0.1 s is what a page that is drawn ten times a second needs.
+#[test]
+fn clients_that_stall_stop_no_other() {
+    let (scope, mut input) = Served::start(&[]);
+    input.write_all(&frames(0..10_000, 0..0)).unwrap();
+    scope.state(|state| state["records"] == 10_000);
+    // as many as the descriptors of this process have room for
+    let room = rustix::process::getrlimit(rustix::process::Resource::Nofile).current.unwrap_or(4096);
+    let each = 400.min(room.saturating_sub(100) / 3);
+    let mut stalled = Vec::new();
+    let host = &scope.address;
+    for _ in 0..each {
+        for head in [
+            "GET /state HTTP/1.1\r\nHost: ".to_owned(),
+            format!("GET /csv?from=0&to=9999 HTTP/1.1\r\nHost: {host}\r\n\r\n").repeat(50),
+            format!("POST / HTTP/1.1\r\nHost: {host}\r\nContent-Length: {}\r\n\r\n", u64::MAX),
+        ] {
+            let mut stream = TcpStream::connect(host).unwrap();
+            stream.set_nonblocking(true).unwrap();
+            // one that is closed already stalls nothing
+            let _ = stream.write(head.as_bytes());
+            stalled.push(stream);
+        }
+        if stalled.len() % 60 == 0 {
+            // the least of five: other tests keep the processors busy
+            let answered = || {
+                let begun = Instant::now();
+                assert!(!scope.json("/window?from=0&to=9999&places=10")["ticks"].is_null());
+                begun.elapsed()
+            };
+            let least = (0..5).map(|_| answered()).min().unwrap();
+            assert!(least < Duration::from_millis(100), "{least:?}, {} stall", stalled.len());
+        }
+    }
+    let status = std::fs::read_to_string(format!("/proc/{}/status", scope.child.id())).unwrap_or_default();
+    let threads =
+        status.lines().find_map(|line| line.strip_prefix("Threads:")).map_or(1, |n| n.trim().parse().unwrap());
+    assert!(threads <= 32, "{threads} threads");
+    let (status, csv) = scope.get("/csv?from=0&to=9999");
+    assert_eq!((status, csv.lines().count()), (200, 10_001));
+    drop(stalled);
+}
+
+/// What a page from elsewhere can have its visitor's browser send is not answered; a head without end is refused.
+#[test]
+fn nothing_is_served_across_origins() {
+    let (scope, _input) = Served::start(&[]);
+    let host = &scope.address;
+    let port = host.split_once(':').unwrap().1;
+    for (headers, status) in [
+        (format!("Host: {host}"), 200),
+        (format!("Host: {host}\r\nOrigin: http://{host}\r\nSec-Fetch-Site: same-origin"), 200),
+        (format!("Host: localhost:{port}\r\nSec-Fetch-Site: none"), 200),
+        (format!("Host: {host}\r\nOrigin: http://example.org"), 403),
+        (format!("Host: {host}\r\nOrigin: null"), 403),
+        (format!("Host: {host}\r\nOrigin: http://127.0.0.1:1"), 403),
+        (format!("Host: {host}\r\nOrigin: https://{host}"), 403),
+        (format!("Host: {host}\r\nsec-fetch-site: cross-site"), 403),
+        (format!("Host: {host}\r\nSEC-FETCH-SITE:same-site"), 403),
+        (format!("Host: {host}\r\nHost: example.org"), 403),
+        ("Host: 127.0.0.1.example.org".to_owned(), 403),
+        ("Accept: */*".to_owned(), 403),
+        (format!("Host: {host}\r\nA: {}", "a".repeat(20_000)), 431),
+    ] {
+        for path in ["/", "/state", "/csv?from=0&to=9"] {
+            let (found, body) = scope.ask(&format!("GET {path} HTTP/1.1\r\n{headers}"));
+            assert_eq!(found, status, "{path} {}: {body}", &headers[..headers.len().min(80)]);
+        }
+    }
+}

@@ -1,5 +1,5 @@
 //! The description of a chain, from the motor outwards, and how its run begins: the start conditions of
-//! `[Huang 1987 part 2]`.
+//! `[derived; headings: Huang 1987 ch. 3 to 7]`.
 
 use super::error::{PlantError, finite, in_range, not_negative, positive};
 use super::event::Place;
@@ -89,8 +89,8 @@ impl Chain {
     }
 
     /// Efficiency, above 0 and up to 1, of a gear at the last node, between it and the shaft that follows. The node
-    /// carries `T/eta` when motoring and `eta T` when overhauling, and sticks in between at rest `[Wang 1989 §1-3]`.
-    /// Refused at the end of the chain, where no shaft follows.
+    /// carries `T/eta` when motoring and `eta T` when overhauling, and sticks in between at rest
+    /// `[Huang 1987 tables 1-2 to 1-4]`. Refused at the end of the chain, where no shaft follows.
     #[must_use]
     pub fn efficiency(self, efficiency: f64) -> Self {
         self.last(|node| (node.efficiency, node.back_efficiency) = (efficiency, efficiency))

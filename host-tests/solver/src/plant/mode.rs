@@ -30,7 +30,7 @@ impl Mode {
         self.motion[node] == 0
     }
 
-    /// Torque on the node before the shaft, as a multiple of the shaft's `[Wang 1989 §1-3]`.
+    /// Torque on the node before the shaft, as a multiple of the shaft's `[Huang 1987 tables 1-2 to 1-4]`.
     pub fn loss(&self, chain: &Chain, shaft: usize) -> f64 {
         let gear = &chain.nodes[shaft];
         match self.motion[shaft] * self.flow[shaft] {

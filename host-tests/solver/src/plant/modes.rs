@@ -5,7 +5,8 @@
 //! ([`System::modes`]); a one-sided Jacobi iteration on the scaled incidence matrix `sqrt(k) B / sqrt(J)`, which
 //! never forms the stiffness and so keeps every frequency to rounding whatever the ratios of inertia and stiffness
 //! ([`System::frequencies`]); and for chains Holzer's residual torque ([`holzer`]) and transfer matrices
-//! ([`transfer`]). With damping: [`System::damped_eigenvalues`]. `[Pfützner 1980 ch. 1]`, `[Wang 1989 ch. 3]`.
+//! ([`transfer`]). With damping: [`System::damped_eigenvalues`].
+//! `[Derived; headings: Pfützner 1980 ch. 1, Wang 1989 ch. 3]`.
 //!
 //! Terms: node, shaft and inertia as in [`crate::plant`], but each part on its own shaft, not referred to the motor;
 //! a coordinate is the angle of a node that no gear ties to another.

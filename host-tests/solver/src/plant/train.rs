@@ -6,8 +6,8 @@
 //! same thing with other terms:
 //!
 //! `J_j v_j' = torques_j - viscous_j v_j - sum_l c_lj F_l`, `F_l = k_l(t) x_l + d_l dx_l/dt`, `x_l = sum_j c_lj q_j -
-//! error - half the gap` `[Pfützner 1980 (1.6)]`, `[Tang 1994 (1.5)]`; with a crank `J w' + J'(phi) w^2/2` stands on
-//! the left `[Wang 1989 (1-15)]`.
+//! error - half the gap` `[Pfützner 1980 (1.6)]`, `[Tang 1994 (1.5)]`; with a crank `J w' + J'(phi)
+//! w^2/2` stands on the left `[derived]`.
 //!
 //! Between events (a flank met or left, a stop, a slip, a switch of stiffness, a corner of a torque) the motion is
 //! the sum of its Taylor series, which for a linear train is the series of the matrix exponential; a linear train

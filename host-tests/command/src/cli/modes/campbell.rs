@@ -1,4 +1,4 @@
-//! Critical speeds: where an excitation's order meets a natural frequency `[Pfützner 1980 ch. 1]`.
+//! Critical speeds: where an excitation's order meets a natural frequency `[derived; heading: Pfützner 1980 ch. 1]`.
 
 use std::f64::consts::TAU;
 

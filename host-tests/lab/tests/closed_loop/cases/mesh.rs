@@ -100,7 +100,7 @@ fn a_grazing_flank_is_left_or_kept_by_a_millionth_of_a_millionth() {
 
 #[test]
 fn a_tooth_error_opens_the_mesh() {
-    // at rest m x'' = F - k (x - e): the static elongation is F/k + e [Tang 1994 ch. 1]
+    // at rest m x'' = F - k (x - e): the static elongation is F/k + e [derived from Tang 1994 (1.4)]
     let (force, k, error) = (400.0, 8.0e6, 3e-5);
     let variation = Variation::spur(1.5, 10.0, k, k, error);
     let link = Link::ground(0, k).varying(variation).elongated(force / k + error);

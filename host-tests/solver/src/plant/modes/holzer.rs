@@ -1,4 +1,5 @@
-//! Holzer's residual torque of a free chain: a check that needs no matrix `[Pfützner 1980 ch. 1]`, `[Wang 1989 ch. 3]`.
+//! Holzer's residual torque of a free chain: a check that needs no matrix
+//! `[derived; headings: Pfützner 1980 ch. 1, Wang 1989 ch. 3]`.
 
 /// Torque, N m, that must act on the last disc for the chain to swing at `omega` (rad/s) with one radian at the first
 /// disc: zero at a natural frequency. Inertias in kg m2, `stiffness` (N m/rad) one shorter; surplus numbers are left

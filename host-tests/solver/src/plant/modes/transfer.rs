@@ -1,5 +1,6 @@
-//! Transfer matrices of a free chain: angle and torque carried from one end to the other `[Pfützner 1980 ch. 1]`,
-//! `[Wang 1989 ch. 3]`. A third way to its frequencies, with shapes, beside Jacobi's and Holzer's.
+//! Transfer matrices of a free chain: angle and torque carried from one end to the other
+//! `[derived; headings: Pfützner 1980 ch. 1, Wang 1989 ch. 3]`. A third way to its frequencies, with shapes, beside
+//! Jacobi's and Holzer's.
 
 /// Angle and torque behind a part from those before it, row by row.
 pub type Transfer = [[f64; 2]; 2];

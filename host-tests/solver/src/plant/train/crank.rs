@@ -1,5 +1,4 @@
-//! A crank with its rod and slider: inertia that depends on the angle, `J w' + J'(phi) w^2/2 = torque` `[Wang 1989
-//! (1-15)]`.
+//! A crank with its rod and slider: inertia that depends on the angle, `J w' + J'(phi) w^2/2 = torque` `[derived]`.
 
 use super::super::error::{PlantError, in_range, not_negative, positive};
 use super::super::event::Place;

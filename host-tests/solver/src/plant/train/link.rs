@@ -89,7 +89,7 @@ impl Link {
     }
 
     /// The same with a gear's efficiency between its first coordinate and itself, above 0 and up to 1: the coordinate
-    /// carries `F/eta` when motoring and `eta F` when overhauling `[Wang 1989 §1-3]`.
+    /// carries `F/eta` when motoring and `eta F` when overhauling `[Huang 1987 tables 1-2 to 1-4]`.
     #[must_use]
     pub fn efficiency(mut self, efficiency: f64) -> Self {
         (self.efficiency, self.back_efficiency) = (efficiency, efficiency);

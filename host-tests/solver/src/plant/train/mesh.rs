@@ -1,4 +1,4 @@
-//! Stiffness that changes with time: tooth pairs that come into contact and leave it `[Tang 1994 ch. 1]`.
+//! Stiffness that changes with time: tooth pairs that come into contact and leave it `[Tang 1994 §1.1]`.
 
 use std::f64::consts::TAU;
 

@@ -45,7 +45,7 @@ pub enum Source {
         /// Synchronous speed `w_0`, rad/s, above zero.
         synchronous: f64,
     },
-    /// A series motor `c (U/(R + c w))^2` `[Wang 1989 §1-2]`, at speeds above `-R/c`.
+    /// A series motor `c (U/(R + c w))^2` `[derived; shape: Wang 1989 §1-2]`, at speeds above `-R/c`.
     Series {
         /// Voltage `U`, V.
         voltage: f64,
@@ -82,7 +82,7 @@ pub enum Source {
         /// Turns of a cycle, 1 or more.
         turns: u32,
     },
-    /// Orders of the coordinate's own angle: the gas torque of an engine `[Pfützner 1980 ch. 1]`.
+    /// Orders of the coordinate's own angle: the gas torque of an engine `[Pfützner 1980 (1.2a) to (1.2c)]`.
     Orders(Vec<Harmonic>),
 }
 

@@ -117,7 +117,7 @@ impl SpurPair {
 
     /// The pair in units of its own: of mass `m = m_1 m_2/(m_1 + m_2)` with `m_i = J_i/r_bi^2`, of time the inverse of
     /// `sqrt(k/m)`, of length half its backlash; without one, what the tooth force of its torque deflects the mesh by,
-    /// and 1 m without a torque. Mass and stiffness of the mesh are 1 [derived; (1.7) of Tang 1994 is non-dimensional].
+    /// and 1 m without a torque. Mass and stiffness of the mesh are 1 [derived; Tang 1994 (1.7) is non-dimensional].
     /// Angles stay as they are.
     #[must_use]
     pub fn non_dimensional(&self) -> (Self, Scales) {

@@ -1,4 +1,5 @@
-//! How a train begins: the start conditions of `[Huang 1987 part 2]` beside what coordinates and links are given.
+//! How a train begins: the start conditions `[derived; headings: Huang 1987 ch. 3 to 7]` beside what coordinates and
+//! links are given.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -43,7 +43,7 @@ impl Mode {
         train.links[link].is_linear() || self.contact[link].abs() == 1
     }
 
-    /// Force on the first coordinate of a link, as a multiple of its own `[Wang 1989 §1-3]`.
+    /// Force on the first coordinate of a link, as a multiple of its own `[Huang 1987 tables 1-2 to 1-4]`.
     pub fn loss(&self, train: &Train, link: usize) -> f64 {
         if !train.links[link].is_lossy() {
             return 1.0;

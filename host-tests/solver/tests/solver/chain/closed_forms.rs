@@ -20,7 +20,7 @@ fn close(found: f64, expected: f64, scale: f64) {
 
 #[test]
 fn a_step_on_a_locked_load_doubles_the_static_torque() {
-    // K = 2 [Huang 1987 part 2]; the load is locked by a brake that never slips
+    // K = 2 [derived; headings: Huang 1987 ch. 3 to 7]; the load is locked by a brake that never slips
     let mut plant = Chain::motor(0.5).shaft(Shaft::elastic(800.0), 3.0).build().unwrap();
     plant.set_brake(1, 1.0e6);
     plant.watch_extremes();
@@ -35,7 +35,7 @@ fn a_step_on_a_locked_load_doubles_the_static_torque() {
 
 #[test]
 fn masses_that_meet_at_a_relative_speed_add_the_impact_torque() {
-    // tau = d_omega sqrt(k J1 J2/(J1 + J2)) [Huang 1987 part 2]
+    // tau = d_omega sqrt(k J1 J2/(J1 + J2)) [derived; headings: Huang 1987 ch. 3 to 7]
     let (j1, j2, k, speed) = (0.7, 0.3, 1500.0_f64, 6.0);
     let start = Start::Given { twists: vec![-0.02], speeds: vec![speed, 0.0] };
     let chain = Chain::motor(j1).shaft(Shaft::elastic(k).gap(0.04), j2).start(start);
@@ -126,7 +126,7 @@ fn lossy(eta: f64, back: f64, [rises, holds, holds_too, sinks]: [f64; 4]) {
             .unwrap()
     };
     for (torque, acceleration) in [
-        // at rest behind a well damped shaft: J1 + J2/eta, or J1 + J2 eta backwards [Wang 1989 §1-3]
+        // at rest behind a well damped shaft: J1 + J2/eta, or J1 + J2 eta backwards [Huang 1987 tables 1-2 to 1-4]
         (rises, (rises - 100.0 / eta) / (1.0 + 2.0 / eta)),
         (holds, 0.0),
         (holds_too, 0.0),

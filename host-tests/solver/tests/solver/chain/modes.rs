@@ -170,7 +170,7 @@ fn a_spring_to_the_ground_takes_the_rigid_motion_away() {
 
 #[test]
 fn a_branch_closed_to_a_ring_has_the_frequencies_of_a_ring() {
-    // three equal discs in a ring: 0 and twice sqrt(3 k / J) [Pfützner 1980 ch. 1, closed systems]
+    // three equal discs in a ring: 0 and twice sqrt(3 k / J) [derived; heading: Pfützner 1980 ch. 1]
     let system = System::new(&[2.0; 3]).shaft(0, 1, 8.0, 0.0).shaft(1, 2, 8.0, 0.0).shaft(2, 0, 8.0, 0.0);
     let expected = [0.0, 12.0_f64.sqrt(), 12.0_f64.sqrt()];
     // three by three: rounding only

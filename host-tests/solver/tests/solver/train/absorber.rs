@@ -1,5 +1,5 @@
-//! Dampers and absorbers, each against its closed form: tuned, viscous (Lanchester), dry friction `[Pfützner 1980 ch.
-//! 1]`.
+//! Dampers and absorbers, each against its closed form: tuned, viscous (Lanchester), dry friction `[derived;
+//! heading: Pfützner 1980 §1.5]`.
 
 use std::f64::consts::{PI, TAU};
 

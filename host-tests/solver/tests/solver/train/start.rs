@@ -1,5 +1,5 @@
-//! The start conditions of `[Huang 1987 part 2]` by the train's solver: `data/backlash_transients.json`, made with 40
-//! digits.
+//! The start conditions `[derived; headings: Huang 1987 ch. 3 to 7]` by the train's solver:
+//! `data/backlash_transients.json`, made with 40 digits.
 
 use driveline_solver::plant::train::{Coordinate, Friction, Link, Motion, Orders, Signal, Source, Train};
 use driveline_solver::plant::{EventKind, LoadProgram};
