@@ -3,6 +3,7 @@
 
 mod absorber;
 mod against_chain;
+mod contact;
 mod crank;
 mod gear_pair;
 mod linear;

@@ -93,27 +93,30 @@ impl Motion {
     /// All quantities that must not fall below zero while the stretch lasts.
     fn guards(&self, stretch: &Stretch, mut add: impl FnMut(Action, (Series, Series))) {
         for (l, link) in self.train.links.iter().enumerate().filter(|(_, link)| !link.is_linear()) {
-            let (x, force) = (&stretch.elongation[l], &stretch.strain[l]);
+            let (x, force) = (&stretch.approach[l], &stretch.strain[l]);
             let reach = link.origin(1);
-            match (link.rope, self.mode.contact[l]) {
-                (false, 0) => {
+            let contact = self.mode.contact[l];
+            let side = f64::from(contact.signum());
+            match contact.abs() {
+                0 => {
                     add(Action::Contact(l, 1), x.guard(-1.0, reach));
-                    add(Action::Contact(l, -1), x.guard(1.0, reach));
+                    if !link.rope {
+                        add(Action::Contact(l, -1), x.guard(1.0, reach));
+                    }
                 }
-                (false, side) => add(Action::Contact(l, 0), x.guard(f64::from(side), -reach)),
-                (true, 0) => add(Action::Contact(l, 1), x.guard(-1.0, reach)),
-                (true, 1) => {
-                    let left = if link.damping > 0.0 { TRAILING } else { 0 };
-                    add(Action::Contact(l, left), force.guard(1.0, 0.0));
+                1 => {
+                    let left = if link.damping > 0.0 { contact * TRAILING } else { 0 };
+                    add(Action::Contact(l, left), force.guard(side, 0.0));
                 }
-                (true, _) => {
-                    add(Action::Contact(l, 1), force.guard(-1.0, 0.0));
-                    add(Action::Contact(l, 0), x.guard(1.0, -reach));
+                _ => {
+                    add(Action::Contact(l, contact.signum()), force.guard(-side, 0.0));
+                    add(Action::Contact(l, 0), x.guard(side, -reach));
                 }
             }
         }
         for (l, link) in self.train.links.iter().enumerate() {
-            if link.is_lossy() && self.mode.carries(&self.train, l) {
+            // a contact carries one sign alone
+            if link.is_lossy() && link.is_linear() {
                 let factor = f64::from(self.mode.flow[l]) * link.terms[0].1.signum();
                 add(Action::Flow(l), stretch.strain[l].guard(factor, 0.0));
             }
@@ -194,8 +197,8 @@ impl Motion {
                 if new.abs() == 1 {
                     self.mode.flow[l] = new * self.train.links[l].terms[0].1.signum() as i8;
                 }
-                // a trailing rope is slack to the outside
-                let shown = |contact: i8| if contact == TRAILING { 0 } else { contact };
+                // a trailing contact is open to the outside
+                let shown = |contact: i8| if contact.abs() == TRAILING { 0 } else { contact };
                 if shown(was) != shown(new) {
                     self.log(EventKind::Contact, Place::Shaft(l), shown(new));
                 }
@@ -270,10 +273,10 @@ impl Motion {
         let stretch = self.stretch(self.longest(f64::MAX));
         for l in 0..self.train.links.len() {
             let link = &self.train.links[l];
-            let torque = stretch.strain[l].value[0] * link.terms[0].1;
-            self.mode.flow[l] = if torque < 0.0 { -1 } else { 1 };
-            if link.rope && self.mode.contact[l] == 1 && torque < 0.0 {
-                self.mode.contact[l] = TRAILING;
+            let (force, contact) = (stretch.strain[l].value[0], self.mode.contact[l]);
+            self.mode.flow[l] = if force * link.terms[0].1 < 0.0 { -1 } else { 1 };
+            if !link.is_linear() && force * f64::from(contact) < 0.0 {
+                self.mode.contact[l] = contact * TRAILING;
             }
         }
         for s in 0..self.train.frictions.len() {

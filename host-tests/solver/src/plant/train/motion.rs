@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use super::leap::Leap;
 use super::pins::Pinning;
 use super::signal::Watch;
-use super::state::{Mode, State, TRAILING};
+use super::state::{Mode, State};
 use super::stretch::Stretch;
 use super::{Coordinate, Friction, Source, Train, Variation, coupling};
 use crate::plant::error::PlantError;
@@ -65,9 +65,12 @@ impl Motion {
             speed: train.coordinates.iter().map(|c| c.speed).collect(),
             angle: train.coordinates.iter().map(|c| c.angle).collect(),
         };
-        let contact = train.links.iter().map(|link| {
-            let reach = link.origin(1);
-            let (ahead, back) = (link.elongation > reach, link.elongation < -reach && !link.rope);
+        let teeth = teeth_of(&train);
+        let contact = train.links.iter().enumerate().map(|(l, link)| {
+            let edge = teeth.iter().find(|tooth| tooth.0 == l).map_or(0, |tooth| tooth.1);
+            let error = |variation: &Variation| variation.over(link.stiffness, 0.0, 1.0, edge).1[0];
+            let x = link.elongation - link.variation.as_ref().map_or(0.0, error);
+            let (ahead, back) = (x > link.origin(1), x < -link.origin(1) && !link.rope);
             if link.is_linear() { 1 } else { i8::from(ahead) - i8::from(back) }
         });
         let mut arcs = Vec::new();
@@ -86,11 +89,11 @@ impl Motion {
         }
         let mode = Mode {
             contact: contact.collect(),
+            teeth: teeth.clone(),
             slip: vec![0; train.frictions.len()],
             flow: vec![1; train.links.len()],
             arcs,
             pins: pins_of(&train),
-            teeth: teeth_of(&train),
             stuck: Vec::new(),
             holding: DMatrix::zeros(0, 0),
         };
@@ -192,10 +195,6 @@ impl Motion {
     /// The longest stretch worth trying.
     pub(super) fn longest(&self, left: f64) -> f64 {
         if self.rate * left > REACH { REACH / self.rate } else { left }
-    }
-
-    pub(super) fn is_trailing(&self, link: usize) -> bool {
-        self.mode.contact[link] == TRAILING
     }
 
     /// The angle, rad, of an end of an arc, even numbers begin it, odd ones end it; or the speed, rad/s, of the end of

@@ -84,10 +84,7 @@ impl Motion {
     /// Contact of a link: +1 drive side, -1 back side, 0 in the gap, slack for a rope.
     #[must_use]
     pub fn contact(&self, link: usize) -> i8 {
-        match self.mode.contact.get(link) {
-            Some(_) if self.is_trailing(link) => 0,
-            contact => contact.copied().unwrap_or(0),
-        }
+        self.mode.contact.get(link).copied().filter(|contact| contact.abs() == 1).unwrap_or(0)
     }
 
     /// Any signal; NaN for one that is not there.

@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::Train;
 use super::pins::Pinning;
 
-/// Side of a rope that is stretched but whose damper has stopped pulling.
+/// Times its side: a contact that is still closed, but whose damper has taken its force to zero.
 pub(super) const TRAILING: i8 = 2;
 
 /// The continuous state.
@@ -19,7 +19,7 @@ pub(super) struct State {
 /// Which smooth stretch is running.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Mode {
-    /// Of each link: -1, 0, +1, or [`TRAILING`].
+    /// Of each link: -1, 0, +1, or a side times [`TRAILING`].
     pub contact: Vec<i8>,
     /// Of each friction: the direction it slides in, 0 while it sticks.
     pub slip: Vec<i8>,

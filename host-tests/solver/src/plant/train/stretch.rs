@@ -4,7 +4,7 @@ use super::Train;
 use super::series::{Series, TERMS, ZERO, product, value};
 use super::sized::Sized;
 use super::source::Work as SourceWork;
-use super::state::{Mode, State, TRAILING};
+use super::state::{Mode, State};
 use super::varying::Varying;
 use super::{coupling, series};
 
@@ -14,6 +14,8 @@ const LEFT_OUT: f64 = 1e-17;
 pub(super) struct Stretch {
     pub length: f64,
     pub elongation: Vec<Sized>,
+    /// Of every link, the elongation less the tooth error.
+    pub approach: Vec<Sized>,
     pub speed: Vec<Sized>,
     pub angle: Vec<Sized>,
     /// Of every link, the force as if it were in contact on its present side.
@@ -72,6 +74,7 @@ impl Stretch {
         Self {
             length,
             elongation: new(&state.elongation),
+            approach: Vec::new(),
             speed: new(&state.speed),
             angle: new(&state.angle),
             strain: empty(train.links.len()),
@@ -171,6 +174,15 @@ impl Stretch {
                 }
             }
         }
+        self.approach.clone_from(&self.elongation);
+        for (approach, law) in self.approach.iter_mut().zip(&laws) {
+            if let Law::Varying(over) = law {
+                for (k, error) in over[1].iter().enumerate() {
+                    approach.value[k] -= error;
+                    approach.size[k] += error.abs();
+                }
+            }
+        }
     }
 
     #[allow(clippy::too_many_arguments)]
@@ -193,7 +205,7 @@ impl Stretch {
             let elongation = &mut self.elongation[l];
             elongation.put(k + 1, step * rate, step * rate_size);
             let mut opening = (0.0, 0.0);
-            let origin = link.origin(if mode.contact[l] == TRAILING { 1 } else { mode.contact[l] });
+            let origin = link.origin(mode.contact[l]);
             let (force, force_size) = match &laws[l] {
                 Law::Fixed(stiffness) => {
                     let at = if k == 0 { origin } else { 0.0 };
@@ -283,7 +295,7 @@ impl Stretch {
             }
             self.length *= 0.5;
             let moved = [&mut self.speed, &mut self.angle, &mut self.elongation];
-            let forces = [&mut self.strain, &mut self.friction, &mut self.rod];
+            let forces = [&mut self.approach, &mut self.strain, &mut self.friction, &mut self.rod];
             for sized in moved.into_iter().chain(forces).flatten() {
                 let mut scale = 1.0;
                 for k in 0..TERMS {

@@ -22,7 +22,7 @@ pub enum Change {
     Tooth(usize, i64),
 }
 
-/// Side of a rope that is stretched but whose damper has stopped pulling.
+/// Times its side: a contact that is closed, but whose damper takes all of its force.
 const TRAILING: f64 = 0.5;
 
 /// Share of the largest force that holds something within which another is rounding.
@@ -54,14 +54,8 @@ pub struct Double<'a> {
 impl<'a> Double<'a> {
     pub fn new(train: &'a Train, held: Vec<f64>, arcs: &[(usize, usize, i64)]) -> Self {
         let side = train.links.iter().map(|link| {
-            let reach = if link.rope { link.gap } else { 0.5 * link.gap };
-            if link.is_linear() || link.elongation > reach {
-                1.0
-            } else if link.elongation < -reach && !link.rope {
-                -1.0
-            } else {
-                0.0
-            }
+            // contacts close where they are settled
+            f64::from(u8::from(link.is_linear()))
         });
         Self {
             side: side.collect(),
@@ -83,12 +77,17 @@ impl<'a> Double<'a> {
     /// Directions of the frictions and flows at the start.
     pub fn settle(&mut self, t: f64, y: &[f64]) {
         (self.settled, self.changed) = (true, true);
-        for l in 0..self.train.links.len() {
+        for (l, link) in self.train.links.iter().enumerate() {
+            let x = y[l] - self.law(t, l).1;
+            if !link.is_linear() {
+                let reach = if link.rope { link.gap } else { 0.5 * link.gap };
+                let back = x < -reach && !link.rope;
+                self.side[l] = f64::from(i8::from(x > reach) - i8::from(back));
+            }
             let strain = self.strain(t, y, l);
-            let toward = strain * self.train.links[l].terms[0].1;
-            self.flow[l] = if toward < 0.0 { -1.0 } else { 1.0 };
-            if self.train.links[l].rope && self.side[l] == 1.0 && strain < 0.0 {
-                self.side[l] = TRAILING;
+            self.flow[l] = if strain * link.terms[0].1 < 0.0 { -1.0 } else { 1.0 };
+            if !link.is_linear() && strain * self.side[l] < 0.0 {
+                self.side[l] *= TRAILING;
             }
         }
         for s in 0..self.way.len() {
@@ -158,7 +157,7 @@ impl<'a> Double<'a> {
     /// Force of a link as if it were in contact, on the positive side if it is on none.
     fn strain(&self, t: f64, y: &[f64], l: usize) -> f64 {
         let link = &self.train.links[l];
-        let reach = if link.rope { link.gap } else { 0.5 * link.gap * self.side[l] };
+        let reach = if link.rope { link.gap } else { 0.5 * link.gap * self.side[l].signum() };
         let (k, error, opening) = self.law(t, l);
         let rate: f64 = link.terms.iter().map(|&(at, c)| c * self.speed(y, at)).sum();
         k * (y[l] - reach - error) + link.damping * (rate - opening)
@@ -447,22 +446,23 @@ impl Hybrid for Double<'_> {
         let mut all = Vec::new();
         for (l, link) in self.train.links.iter().enumerate() {
             let reach = if link.rope { link.gap } else { 0.5 * link.gap };
-            let (x, size) = (y[l], reach.max(y[l].abs()));
-            let pull = self.law(t, l).0 * size;
-            if link.is_lossy() && self.side[l].abs() == 1.0 {
-                let toward = self.strain(t, y, l) * link.terms[0].1;
-                all.push((self.flow[l] * toward, pull, Change::Flow(l)));
-            }
+            let (stiffness, error, _) = self.law(t, l);
+            let (x, size) = (y[l] - error, reach.max(y[l].abs()).max(error.abs()));
+            let pull = stiffness * size;
+            let strain = self.strain(t, y, l);
             if link.is_linear() {
+                if link.is_lossy() {
+                    all.push((self.flow[l] * strain * link.terms[0].1, pull, Change::Flow(l)));
+                }
                 continue;
             }
-            if self.side[l] == TRAILING {
-                all.push((-self.strain(t, y, l), pull, Change::Side(l, 1.0)));
-                all.push((x - reach, size, Change::Side(l, 0.0)));
-            } else if self.side[l] != 0.0 && link.rope && link.damping > 0.0 {
-                all.push((self.strain(t, y, l), pull, Change::Side(l, TRAILING)));
+            let side = self.side[l].signum();
+            if self.side[l].abs() == TRAILING {
+                all.push((-side * strain, pull, Change::Side(l, side)));
+                all.push((side * x - reach, size, Change::Side(l, 0.0)));
             } else if self.side[l] != 0.0 {
-                all.push((self.side[l] * x - reach, size, Change::Side(l, 0.0)));
+                let left = if link.damping > 0.0 { side * TRAILING } else { 0.0 };
+                all.push((side * strain, pull, Change::Side(l, left)));
             } else {
                 all.push((reach - x, size, Change::Side(l, 1.0)));
                 if !link.rope {
