@@ -13,6 +13,7 @@ mod modes;
 mod mover;
 mod pins;
 mod proof;
+mod rigid_gear;
 mod spur_pair;
 mod start;
 mod transfer;

@@ -19,6 +19,8 @@ enum Action {
     Contact(usize, i8),
     /// The torque of the link changes its sign.
     Flow(usize),
+    /// The torque behind the gear that has no shaft changes its sign, sliding or about to slide this way.
+    Gear(usize, i8),
     /// The friction has come to rest.
     Stop(usize),
     /// The friction breaks loose in this direction.
@@ -121,6 +123,13 @@ impl Motion {
                 add(Action::Flow(l), stretch.strain[l].guard(factor, 0.0));
             }
         }
+        for (g, flow) in self.mode.gears.iter().enumerate() {
+            let slip = self.mode.slip[flow.friction];
+            for side in [1, -1].into_iter().filter(|&side| slip == 0 || slip == side) {
+                let sign = f64::from(flow.sign[usize::from(side < 0)]);
+                add(Action::Gear(g, side), stretch.gear[g].guard(sign, sign * self.gear_friction(g, side)));
+            }
+        }
         for (s, friction) in self.train.frictions.iter().enumerate() {
             let slip = self.mode.slip[s];
             if slip != 0 {
@@ -172,9 +181,35 @@ impl Motion {
         sum
     }
 
+    /// What dry friction adds to the torque behind a gear before it slides towards `side`.
+    fn gear_friction(&self, gear: usize, side: i8) -> f64 {
+        let friction = self.mode.gears[gear].friction;
+        if self.mode.slip[friction] == 0 { f64::from(side) * self.train.frictions[friction].breakaway } else { 0.0 }
+    }
+
+    /// Signs of the torques behind the gears, as they are now.
+    fn face_gears(&mut self) {
+        let now = Stretch::now(&self.train, &self.mode, &self.state, &self.held, self.now, self.longest(1.0));
+        for g in 0..self.mode.gears.len() {
+            for (i, side) in [1, -1].into_iter().enumerate() {
+                let torque = now.gear[g].value[0] + self.gear_friction(g, side);
+                self.mode.gears[g].sign[i] = if torque < 0.0 { -1 } else { 1 };
+            }
+        }
+    }
+
     /// How far the force that holds a friction is from letting it slip towards `side`.
     fn hold(&self, stretch: &Stretch, s: usize, side: i8, breakaway: f64) -> (Series, Series) {
-        let mut sum = stretch.friction[s].guard(f64::from(side), breakaway);
+        let gear = self.mode.gears.iter().position(|flow| flow.friction == s);
+        let factor = gear.map_or(1.0, |g| {
+            let flow = &self.mode.gears[g];
+            self.train.coordinates[flow.at].gear.map_or(1.0, |gear| flow.factor(&gear, side))
+        });
+        let mut sum = stretch.friction[s].guard(f64::from(side), factor * breakaway);
+        if let Some(g) = gear {
+            let (values, rounding) = stretch.gear[g].guard(f64::from(side) * (factor - 1.0), 0.0);
+            add_to(&mut sum, &values, &rounding);
+        }
         for &l in &self.train.frictions[s].losses {
             if self.mode.carries(&self.train, l) {
                 // motoring, a gear needs 1/eta of the torque; overhauling, it passes eta of it
@@ -207,10 +242,17 @@ impl Motion {
                 self.mode.flow[l] = -self.mode.flow[l];
                 self.log(EventKind::Flow, Place::Shaft(l), self.mode.flow[l]);
             }
+            Action::Gear(g, side) => {
+                let sign = &mut self.mode.gears[g].sign[usize::from(side < 0)];
+                *sign = -*sign;
+                let (new, at) = (*sign, self.mode.gears[g].at);
+                self.log(EventKind::Flow, Place::Node(at), new);
+            }
             Action::Stop(s) => {
                 self.rest(s);
                 self.mode.slip[s] = 0;
                 self.mode.gather(&self.train);
+                self.face_gears();
                 self.let_go(s);
                 let new = self.mode.slip[s];
                 let kind = if new == 0 { EventKind::Stop } else { EventKind::Reversal };
@@ -279,6 +321,7 @@ impl Motion {
                 self.mode.contact[l] = contact * TRAILING;
             }
         }
+        self.face_gears();
         for s in 0..self.train.frictions.len() {
             if self.mode.slip[s] == 0 {
                 self.let_go(s);

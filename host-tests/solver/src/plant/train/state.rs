@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 
 use super::Train;
 use super::pins::Pinning;
+use super::rigid_gear::Flow;
 
 /// Times its side: a contact that is still closed, but whose damper has taken its force to zero.
 pub(super) const TRAILING: i8 = 2;
@@ -25,6 +26,8 @@ pub(super) struct Mode {
     pub slip: Vec<i8>,
     /// Of each link: the sign of its torque on its first coordinate, kept only where a lossy gear needs it.
     pub flow: Vec<i8>,
+    /// Gears with no shaft behind them.
+    pub gears: Vec<Flow>,
     /// Arcs as coordinate and source, and how many of their ends have been passed; odd on the arc. So are sources whose
     /// pieces follow the speed.
     pub arcs: Vec<(usize, usize, i64)>,

@@ -22,6 +22,8 @@ pub(super) struct Stretch {
     pub strain: Vec<Sized>,
     /// Of every friction, the force along its terms, while it sticks or slides.
     pub friction: Vec<Sized>,
+    /// Of every gear with no shaft behind it, the torque behind it; the dry friction there added while it slides.
+    pub gear: Vec<Sized>,
     /// Of every crank with friction in its pins, the force in its rod along the slider's way.
     pub rod: Vec<Sized>,
 }
@@ -79,6 +81,7 @@ impl Stretch {
             angle: new(&state.angle),
             strain: empty(train.links.len()),
             friction: empty(train.frictions.len()),
+            gear: empty(train.coordinates.iter().filter(|coordinate| coordinate.gear.is_some()).count()),
             rod: empty(train.coordinates.iter().filter(|coordinate| coordinate.pins.is_some()).count()),
         }
     }
@@ -116,6 +119,7 @@ impl Stretch {
             }));
         }
         let mut unbalances = coupling::Work::of(train, &self.angle, &self.speed);
+        let inertia: Vec<f64> = (0..n).map(|j| mode.inertia(train, j)).collect();
         let mut net = vec![0.0; n];
         let mut size = vec![0.0; n];
         for k in 0..orders {
@@ -168,7 +172,7 @@ impl Stretch {
                     }
                     None if unbalances.is_some() => {}
                     None => {
-                        let rate = step / coordinate.inertia;
+                        let rate = step / inertia[j];
                         self.speed[j].put(k + 1, rate * net[j], rate * size[j]);
                     }
                 }
@@ -246,6 +250,7 @@ impl Stretch {
                 size[at] += share.abs() * force.abs();
             }
         }
+        self.gears(train, mode, k, net, size);
         // sticking: the forces that keep its speed
         let wanted: Vec<(f64, f64)> = mode
             .stuck
@@ -295,7 +300,7 @@ impl Stretch {
             }
             self.length *= 0.5;
             let moved = [&mut self.speed, &mut self.angle, &mut self.elongation];
-            let forces = [&mut self.approach, &mut self.strain, &mut self.friction, &mut self.rod];
+            let forces = [&mut self.approach, &mut self.strain, &mut self.friction, &mut self.gear, &mut self.rod];
             for sized in moved.into_iter().chain(forces).flatten() {
                 let mut scale = 1.0;
                 for k in 0..TERMS {

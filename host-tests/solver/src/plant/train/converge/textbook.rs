@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use nalgebra::{DMatrix, DVector};
 
 use super::super::pins::Pinning;
+use super::super::rigid_gear::Flow;
 use super::super::{Source, Train, Variation};
 use crate::plant::converge::pass::Hybrid;
 
@@ -14,6 +15,8 @@ use crate::plant::converge::pass::Hybrid;
 pub enum Change {
     Side(usize, f64),
     Flow(usize),
+    /// Torque behind a gear with no shaft, for one of both directions.
+    Gear(usize, usize),
     Rest(usize),
     Loose(usize, f64),
     Arc(usize, i64),
@@ -42,6 +45,7 @@ pub struct Double<'a> {
     /// The frictions that stick, and their forces per torque over the root of the inertia of each coordinate.
     stuck: Vec<usize>,
     holding: DMatrix<f64>,
+    gears: Vec<Flow>,
     arcs: Vec<(usize, usize, i64)>,
     pins: Vec<Pinning>,
     /// Links whose teeth follow an angle, and the edge ahead of each.
@@ -64,6 +68,7 @@ impl<'a> Double<'a> {
             stuck: Vec::new(),
             holding: DMatrix::zeros(0, 0),
             arcs: arcs.to_vec(),
+            gears: super::super::motion::gears_of(train),
             pins: super::super::motion::pins_of(train),
             teeth: super::super::motion::teeth_of(train),
             held,
@@ -95,6 +100,7 @@ impl<'a> Double<'a> {
             self.way[s] = if over == 0.0 { 0.0 } else { over.signum() };
         }
         self.hold();
+        self.face_gears(t, y);
         for s in 0..self.way.len() {
             if self.way[s] == 0.0 {
                 self.judge(t, y, s);
@@ -330,6 +336,11 @@ impl<'a> Double<'a> {
                 net[at] -= c * way * friction.kinetic;
             }
         }
+        for g in 0..self.gears.len() {
+            let [front, behind] = self.geared(t, y, g);
+            let factor = if self.way[self.gears[g].friction] == 0.0 { 1.0 } else { self.gear_loss(g) };
+            net[self.gears[g].at] = front + factor * behind;
+        }
         let mut forces = vec![0.0; self.way.len()];
         for (row, &s) in self.stuck.iter().enumerate() {
             let push = |(j, net): (usize, &f64)| -net / train.coordinates[j].inertia.sqrt() * self.holding[(row, j)];
@@ -338,9 +349,57 @@ impl<'a> Double<'a> {
         forces
     }
 
+    /// Torques in front of a gear and behind it, dry friction included while it slides.
+    fn geared(&self, t: f64, y: &[f64], g: usize) -> [f64; 2] {
+        let Flow { at, friction, .. } = self.gears[g];
+        let coordinate = &self.train.coordinates[at];
+        let sources = coordinate.sources.iter().enumerate();
+        let driven: f64 = sources.map(|(s, source)| self.torque(t, y, at, s, source)).sum();
+        let dry = self.way[friction] * self.train.frictions[friction].kinetic;
+        let mut both = [0.0, self.held[at] + driven - coordinate.viscous * self.speed(y, at) - dry];
+        for (l, link) in self.train.links.iter().enumerate() {
+            for (i, &(_, c)) in link.terms.iter().enumerate().filter(|(_, term)| term.0 == at) {
+                both[usize::from(i == 0)] -= c * self.carried(t, y, l);
+            }
+        }
+        both
+    }
+
+    /// Loss of a gear while it slides, or is to slide towards the direction of its friction.
+    fn gear_loss(&self, g: usize) -> f64 {
+        let flow = &self.gears[g];
+        let way = if self.way[flow.friction] < 0.0 { -1 } else { 1 };
+        self.train.coordinates[flow.at].gear.map_or(1.0, |gear| flow.factor(&gear, way))
+    }
+
+    /// Torque through a gear, if it slides or is about to slide in the first or second direction.
+    fn through(&self, t: f64, y: &[f64], g: usize, direction: usize) -> f64 {
+        let Flow { at, friction, .. } = self.gears[g];
+        let [front, behind] = self.geared(t, y, g);
+        if self.way[friction] == 0.0 {
+            let dry = self.train.frictions[friction].breakaway;
+            return if direction == 0 { dry - behind } else { -dry - behind };
+        }
+        let coordinate = &self.train.coordinates[at];
+        let (loss, before) = (self.gear_loss(g), coordinate.gear.map_or(0.0, |gear| gear.front));
+        let after = coordinate.inertia - before;
+        (after * front + before * -behind) / (before + loss * after)
+    }
+
+    fn face_gears(&mut self, t: f64, y: &[f64]) {
+        for g in 0..self.gears.len() {
+            self.gears[g].sign = [0, 1].map(|direction| if self.through(t, y, g, direction) < 0.0 { -1 } else { 1 });
+        }
+    }
+
     /// How far a friction that sticks is from slipping to each side.
     fn margin(&self, t: f64, y: &[f64], s: usize, force: f64, side: f64) -> f64 {
         let friction = &self.train.frictions[s];
+        if let Some(g) = self.gears.iter().position(|flow| flow.friction == s) {
+            let gear = self.train.coordinates[self.gears[g].at].gear;
+            let loss = gear.map_or(1.0, |gear| self.gears[g].factor(&gear, side as i8));
+            return side * (loss * self.through(t, y, g, usize::from(side < 0.0)) - self.geared(t, y, g)[0]);
+        }
         let mut room = friction.breakaway + side * force;
         for &l in &friction.losses {
             let (eta, back) = (self.train.links[l].efficiency, self.train.links[l].back_efficiency);
@@ -354,6 +413,7 @@ impl<'a> Double<'a> {
     fn judge(&mut self, t: f64, y: &[f64], s: usize) {
         self.way[s] = 0.0;
         self.hold();
+        self.face_gears(t, y);
         let forces = self.balance(t, y, &mut vec![0.0; self.train.coordinates.len()]);
         for side in [1.0, -1.0] {
             if self.margin(t, y, s, forces[s], side) < -ROUNDING * largest(&forces) {
@@ -429,6 +489,11 @@ impl Hybrid for Double<'_> {
                 let share = pinning.pull * loss * mass;
                 (inertia, push) = (inertia - share * way, push - share * bend * speed * speed);
             }
+            if let Some(g) = self.gears.iter().position(|flow| flow.at == j && self.way[flow.friction] != 0.0)
+                && let Some(gear) = coordinate.gear
+            {
+                inertia += (self.gear_loss(g) - 1.0) * (coordinate.inertia - gear.front);
+            }
             out[links + j] = (out[links + j] - push) / (coordinate.inertia + inertia);
             out[links + n + j] = speed;
         }
@@ -488,6 +553,16 @@ impl Hybrid for Double<'_> {
                 all.push((self.margin(t, y, s, forces[s], side), size, Change::Loose(s, side)));
             }
         }
+        for (g, flow) in self.gears.iter().enumerate() {
+            let [front, behind] = self.geared(t, y, g);
+            let way = self.way[flow.friction];
+            for direction in [0, 1] {
+                if way == 0.0 || (way < 0.0) == (direction == 1) {
+                    let torque = f64::from(flow.sign[direction]) * self.through(t, y, g, direction);
+                    all.push((torque, front.abs() + behind.abs(), Change::Gear(g, direction)));
+                }
+            }
+        }
         for (arc, &(j, s, passed)) in self.arcs.iter().enumerate() {
             let (ahead, behind) = (self.arc_end(arc, passed), self.arc_end(arc, passed - 1));
             let pieces = matches!(self.train.coordinates[j].sources[s], Source::Pieces { .. });
@@ -535,6 +610,7 @@ impl Hybrid for Double<'_> {
                 }
             }
             Change::Flow(l) => self.flow[l] = -self.flow[l],
+            Change::Gear(g, direction) => self.gears[g].sign[direction] *= -1,
             Change::Loose(s, side) => {
                 self.way[s] = side;
                 self.hold();
