@@ -176,7 +176,7 @@ impl Chain {
         if !positive(ratio.0) || !positive(self.ratio * ratio.0) {
             return self.refuse(Error::GearRatio);
         }
-        if !(efficiency.0 > 0.0 && efficiency.0 <= 1.0 && back.0 > 0.0 && back.0 <= 1.0) {
+        if !(efficiency.0 > 0.0 && efficiency.0 <= 1.0 && back.0.is_finite() && back.0 <= 1.0) {
             return self.refuse(Error::GearEfficiency);
         }
         self.ratio *= ratio.0;
@@ -201,8 +201,8 @@ impl Chain {
     }
 
     /// A gear that loses more while the load drives it, such as a worm: efficiency with the motor driving, then with
-    /// the load driving. With equal losses in both directions the second is `2 - 1/first`; a worm whose first is one
-    /// half or less is self-locking, which a chain does not model.
+    /// the load driving. With equal losses in both directions the second is `2 - 1/first`. A gear whose second is
+    /// zero or below locks itself: lowering needs the motor to drive.
     ///
     /// Refused: as [`gear`](Self::gear).
     #[must_use]

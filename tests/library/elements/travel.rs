@@ -177,7 +177,7 @@ fn wrong_elements_are_refused() {
         (motor.swinging(Mass(1.0), Length(1.0)), Error::DrumMissing),
         (drum.swinging(Mass(1.0), Length(0.0)), Error::PendulumLength),
         (drum.swinging(Mass(0.0), Length(1.0)), Error::LoadMass),
-        (motor.worm(Ratio(30.0), Efficiency(0.7), Efficiency(0.0)), Error::GearEfficiency),
+        (motor.worm(Ratio(30.0), Efficiency(0.7), Efficiency(1.1)), Error::GearEfficiency),
     ] {
         assert_eq!(result.error(), Some(error));
     }

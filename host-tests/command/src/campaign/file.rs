@@ -9,7 +9,7 @@ use driveline::observer::{
 use driveline::sample::Sample;
 use driveline::settings::{Bases, Gear, SpeedLoopSettings};
 use driveline_firmware::scene::{Input, Output, Scene};
-use driveline_solver::plant::train::{Coordinate, Link, Source, Train};
+use driveline_solver::plant::train::{Coordinate, Link, RigidGear, Source, Train};
 use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft, Start};
 
 use crate::machine_file::MachineFile;
@@ -240,8 +240,7 @@ fn plant(machine: &MachineFile, load: [(f64, f64); 4], by: &Departure) -> Result
         let inertia = loaded(s + 1, *inertia);
         let mut link = Link::shaft(s, s + 1, stiffness).damping(shaft.damping).gap(gap).elongated(twists[s]);
         if efficiency[s] != [1.0; 2] {
-            let [ahead, back] =
-                efficiency[s].map(|efficiency| (efficiency + by.efficiency).clamp(LEAST_EFFICIENCY, 1.0));
+            let [ahead, back] = departing(efficiency[s], by);
             known = known.efficiency(ahead).back_efficiency(back);
             link = link.efficiency(ahead).back_efficiency(back);
         }
@@ -249,13 +248,25 @@ fn plant(machine: &MachineFile, load: [(f64, f64); 4], by: &Departure) -> Result
         train = train.coordinate(Coordinate::new(inertia).viscous(viscous[s + 1]));
         train = train.link(if rope[s] { link.rope() } else { link });
     }
-    if machine.dampers.is_empty() {
+    let rigid = machine.rigid_gears();
+    if machine.dampers.is_empty() && rigid.is_empty() {
         let start = Start::Given { twists, speeds: vec![0.0; masses.len()] };
         return Ok(known.load(weight).program(LoadProgram::table(&load)).start(start).build()?.into());
+    }
+    for (mass, gear) in rigid {
+        let [efficiency, back_efficiency] = departing([gear.efficiency, gear.back_efficiency], by);
+        train = train.gear(mass, RigidGear { efficiency, back_efficiency, ..gear });
     }
     let against = load.map(|(time, torque)| (time, -torque));
     train = train.source(last, Source::Constant(-weight)).source(last, Source::Program(LoadProgram::table(&against)));
     Ok(Body::train(machine.put_dampers(train, masses.len()).build()?, &[]))
+}
+
+/// Efficiencies of a gear while the motor drives and while the load does, which depart from the file.
+fn departing([ahead, back]: [f64; 2], by: &Departure) -> [f64; 2] {
+    // a gear that locks itself stays one
+    let least = if back > 0.0 { LEAST_EFFICIENCY } else { f64::NEG_INFINITY };
+    [(ahead + by.efficiency).clamp(LEAST_EFFICIENCY, 1.0), (back + by.efficiency).clamp(least, 1.0)]
 }
 
 fn governor(design: &SpeedLoopDesign, torque_limit: f64, ramp: f64) -> Result<SpeedLoopConfig<f32>, String> {

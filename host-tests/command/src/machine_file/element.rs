@@ -87,6 +87,8 @@ pub enum Element {
         ratio: f64,
         /// Efficiency; 1 where the file is silent.
         efficiency: f64,
+        /// Efficiency while the load drives; the same where the file is silent. At zero or below the gear locks itself.
+        back_efficiency: f64,
     },
     /// A gear that loses more while the load drives it.
     Worm {
@@ -94,7 +96,7 @@ pub enum Element {
         ratio: f64,
         /// Efficiency while the motor drives.
         efficiency: f64,
-        /// Efficiency while the load drives.
+        /// Efficiency while the load drives; at zero or below the worm locks itself.
         back_efficiency: f64,
     },
     /// A planetary set: one member on the present shaft, one held, what follows turns with the third.
@@ -125,6 +127,8 @@ pub enum Element {
         held: Member,
         /// Efficiency; 1 where the file is silent.
         efficiency: f64,
+        /// As that of a gear.
+        back_efficiency: f64,
     },
     /// A belt to the next mass.
     Belt {
@@ -208,11 +212,12 @@ impl Element {
                 damping: table.number_or("damping", Quantity::DAMPING, 0.0)?,
                 inertia: table.number_or("inertia", Quantity::PART_INERTIA, 0.0)?,
             },
-            "gear" => Self::Gear {
+            "gear" => {
                 // everything is referred to the motor, in the sense in which it turns with it
-                ratio: signed_ratio(&mut table)?.abs(),
-                efficiency: table.number_or("efficiency", Quantity::EFFICIENCY, 1.0)?,
-            },
+                let ratio = signed_ratio(&mut table)?.abs();
+                let [efficiency, back_efficiency] = efficiencies(&mut table)?;
+                Self::Gear { ratio, efficiency, back_efficiency }
+            }
             "section" => {
                 let diameter = table.number("diameter", Quantity::DIAMETER)?;
                 Self::Section {
@@ -237,23 +242,27 @@ impl Element {
             "worm" => Self::Worm {
                 ratio: table.number("ratio", Quantity::RATIO)?,
                 efficiency: table.number("efficiency", Quantity::EFFICIENCY)?,
-                back_efficiency: table.number("back_efficiency", Quantity::EFFICIENCY)?,
+                back_efficiency: table.number("back_efficiency", Quantity::BACK_EFFICIENCY)?,
             },
-            "planetary" => Self::Planetary {
-                ring: table.number_or("ring", Quantity::PART_INERTIA, 0.0)?,
-                input: member(&mut table, "input", Member::Sun)?,
-                held: other_member(&mut table)?,
-                // `TEETH` allows whole numbers up to 10000 only.
-                sun_teeth: table.number("sun_teeth", Quantity::TEETH)? as u32,
-                ring_teeth: table.number("ring_teeth", Quantity::TEETH)? as u32,
-                module: table.number("module", Quantity::DIAMETER)?,
-                planets: table.number("planets", Quantity::TEETH)? as u32,
-                sun: table.number("sun", Quantity::PART_INERTIA)?,
-                planet: table.number("planet", Quantity::PART_INERTIA)?,
-                planet_mass: table.number("planet_mass", Quantity::PART_MASS)?,
-                carrier: table.number("carrier", Quantity::PART_INERTIA)?,
-                efficiency: table.number_or("efficiency", Quantity::EFFICIENCY, 1.0)?,
-            },
+            "planetary" => {
+                let [efficiency, back_efficiency] = efficiencies(&mut table)?;
+                Self::Planetary {
+                    efficiency,
+                    back_efficiency,
+                    ring: table.number_or("ring", Quantity::PART_INERTIA, 0.0)?,
+                    input: member(&mut table, "input", Member::Sun)?,
+                    held: other_member(&mut table)?,
+                    // `TEETH` allows whole numbers up to 10000 only.
+                    sun_teeth: table.number("sun_teeth", Quantity::TEETH)? as u32,
+                    ring_teeth: table.number("ring_teeth", Quantity::TEETH)? as u32,
+                    module: table.number("module", Quantity::DIAMETER)?,
+                    planets: table.number("planets", Quantity::TEETH)? as u32,
+                    sun: table.number("sun", Quantity::PART_INERTIA)?,
+                    planet: table.number("planet", Quantity::PART_INERTIA)?,
+                    planet_mass: table.number("planet_mass", Quantity::PART_MASS)?,
+                    carrier: table.number("carrier", Quantity::PART_INERTIA)?,
+                }
+            }
             "belt" => Self::Belt {
                 driving: table.number("driving", Quantity::DIAMETER)?,
                 driven: table.number("driven", Quantity::DIAMETER)?,
@@ -349,7 +358,9 @@ impl Element {
             Self::Shaft { stiffness, damping, .. } => {
                 self.heavy(chain, |chain| chain.shaft(Stiffness(stiffness), Damping(damping)))
             }
-            Self::Gear { ratio, efficiency } => chain.gear(Ratio(ratio), Efficiency(efficiency)),
+            Self::Gear { ratio, efficiency, back_efficiency } => {
+                chain.worm(Ratio(ratio), Efficiency(efficiency), Efficiency(back_efficiency))
+            }
             Self::Section { length, diameter, end, bore, modulus, damping, .. } => {
                 let section = Section {
                     length: Length(length),
@@ -388,7 +399,9 @@ impl Element {
                 input,
                 held,
                 efficiency,
+                back_efficiency,
             } => {
+                let both_ways = efficiency == back_efficiency;
                 let set = Planetary {
                     sun_teeth,
                     ring_teeth,
@@ -398,11 +411,16 @@ impl Element {
                     planet: Inertia(planet),
                     planet_mass: Mass(planet_mass),
                     carrier: Inertia(carrier),
-                    efficiency: Efficiency(efficiency),
+                    efficiency: Efficiency(if both_ways { efficiency } else { 1.0 }),
                 };
-                match (input, held) {
+                let chain = match (input, held) {
                     (Member::Sun, Member::Ring) => chain.planetary(set),
                     _ => chain.planetary_gear(PlanetaryGear { set, ring: Inertia(ring), input, held }),
+                };
+                if both_ways {
+                    chain
+                } else {
+                    chain.worm(Ratio(1.0), Efficiency(efficiency), Efficiency(back_efficiency))
                 }
             }
             Self::Belt { driving, driven, stiffness, damping, efficiency } => chain.belt(Belt {
@@ -434,7 +452,7 @@ impl Element {
             Self::Shaft { stiffness, damping, .. } => {
                 self.heavy_rust(&format!(".shaft(Stiffness({stiffness:?}), Damping({damping:?}))"))
             }
-            Self::Gear { ratio, efficiency } => {
+            Self::Gear { ratio, efficiency, back_efficiency } if efficiency == back_efficiency => {
                 format!(".gear(Ratio({ratio:?}), Efficiency({efficiency:?}))")
             }
             Self::Section { length, diameter, end, bore, modulus, damping, .. } => self.heavy_rust(&format!(
@@ -448,7 +466,7 @@ impl Element {
                  rod_centre: Length({rod_centre:?}), rod_inertia: Inertia({rod_inertia:?}), slider: Mass({slider:?}) \
                  }}.mean_inertia())"
             ),
-            Self::Worm { ratio, efficiency, back_efficiency } => {
+            Self::Gear { ratio, efficiency, back_efficiency } | Self::Worm { ratio, efficiency, back_efficiency } => {
                 format!(".worm(Ratio({ratio:?}), Efficiency({efficiency:?}), Efficiency({back_efficiency:?}))")
             }
             Self::Planetary {
@@ -464,19 +482,26 @@ impl Element {
                 input,
                 held,
                 efficiency,
+                back_efficiency,
             } => {
+                let (at_once, behind) = if efficiency == back_efficiency {
+                    (efficiency, String::new())
+                } else {
+                    let both = format!("Efficiency({efficiency:?}), Efficiency({back_efficiency:?})");
+                    (1.0, format!(".worm(Ratio(1.0), {both})"))
+                };
                 let set = format!(
                     "Planetary {{ sun_teeth: {sun_teeth}, ring_teeth: {ring_teeth}, module: {module:?}, planets: \
                         {planets}, \
                      sun: Inertia({sun:?}), planet: Inertia({planet:?}), planet_mass: Mass({planet_mass:?}), carrier: \
                      Inertia({carrier:?}), \
-                     efficiency: Efficiency({efficiency:?}) }}"
+                     efficiency: Efficiency({at_once:?}) }}"
                 );
                 match (input, held) {
-                    (Member::Sun, Member::Ring) => format!(".planetary({set})"),
+                    (Member::Sun, Member::Ring) => format!(".planetary({set}){behind}"),
                     _ => format!(
                         ".planetary_gear(PlanetaryGear {{ set: {set}, ring: Inertia({ring:?}), input: \
-                            Member::{input:?}, held: Member::{held:?} }})"
+                            Member::{input:?}, held: Member::{held:?} }}){behind}"
                     ),
                 }
             }
@@ -529,4 +554,10 @@ fn other_member(table: &mut Table<'_>) -> Result<Member, Diagnostic> {
 fn named<S: serde::Serializer>(member: &Member, serializer: S) -> Result<S::Ok, S::Error> {
     let name = MEMBERS.iter().find(|(_, one)| one == member).map_or("", |(name, _)| name);
     serializer.serialize_str(name)
+}
+
+/// Efficiencies while the motor drives and while the load does; without losses where the file is silent.
+fn efficiencies(table: &mut Table<'_>) -> Result<[f64; 2], Diagnostic> {
+    let efficiency = table.number_or("efficiency", Quantity::EFFICIENCY, 1.0)?;
+    Ok([efficiency, table.number_or("back_efficiency", Quantity::BACK_EFFICIENCY, efficiency)?])
 }

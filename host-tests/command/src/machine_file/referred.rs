@@ -3,7 +3,7 @@
 use super::station::{Station, stations};
 use super::{DamperRing, Element, MachineFile, Part};
 use driveline::machine::{Damper, Resonance};
-use driveline_solver::plant::train::{Coordinate, Friction, Link, Source, Train};
+use driveline_solver::plant::train::{Coordinate, Friction, Link, RigidGear, Source, Train};
 use driveline_solver::plant::{Chain, Place, Plant, PlantError, Shaft, Start};
 
 /// Masses and shafts with their names.
@@ -13,14 +13,15 @@ pub(super) struct Referred {
 }
 
 /// The masses and shafts of a machine. The losses of a gear, a worm or a planetary set belong to the shaft behind it;
-/// where a shaft ends in it, to that shaft; those of a belt to the belt. A rope only pulls; the weight of what is
+/// where a shaft ends in it, to that shaft; those of a belt to the belt. Where neither is there, the gear is part of
+/// the last mass, which it divides. A rope only pulls; the weight of what is
 /// lifted pulls backwards on the last mass of its chain or branch.
 ///
 /// # Errors
 /// The label of an element whose losses no shaft can carry.
 pub(super) fn referred(machine: &MachineFile) -> Result<Referred, String> {
     let (masses, shafts) = machine.names();
-    let Carried { rope, efficiency, without_shaft } = machine.carried();
+    let Carried { rope, efficiency, rigid, without_shaft } = machine.carried();
     if let Some(label) = without_shaft {
         return Err(label);
     }
@@ -42,11 +43,13 @@ pub(super) fn referred(machine: &MachineFile) -> Result<Referred, String> {
             .back_efficiency(efficiency[s][1]);
         if rope[s] { bare.rope() } else { bare }
     };
+    let mut coordinates: Vec<(String, Coordinate)> =
+        masses.into_iter().zip(machine.masses().iter().zip(&weight).zip(machine.viscous()).map(coordinate)).collect();
+    for (mass, gear) in rigid {
+        coordinates[mass].1 = coordinates[mass].1.clone().gear(gear);
+    }
     Ok(Referred {
-        coordinates: masses
-            .into_iter()
-            .zip(machine.masses().iter().zip(&weight).zip(machine.viscous()).map(coordinate))
-            .collect(),
+        coordinates,
         links: shafts.into_iter().zip(machine.joints().into_iter().enumerate().map(link)).collect(),
     })
 }
@@ -59,21 +62,32 @@ impl MachineFile {
         (carried.rope, carried.efficiency)
     }
 
-    /// The label of an element whose losses no chain carries: no shaft is behind it.
+    /// The gears with no shaft behind them, each with the mass that it divides.
+    pub fn rigid_gears(&self) -> Vec<(usize, RigidGear)> {
+        self.carried().rigid
+    }
+
+    /// The label of an element whose losses nothing carries: it stands before the first shaft, has no inertia behind
+    /// it, or is the second on one mass.
     pub fn losses_of_no_chain(&self) -> Option<String> {
         self.carried().without_shaft
     }
 
     fn carried(&self) -> Carried {
         let shafts = self.joints().len();
-        let mut carried =
-            Carried { rope: vec![false; shafts], efficiency: vec![[1.0; 2]; shafts], without_shaft: None };
+        let mut carried = Carried {
+            rope: vec![false; shafts],
+            efficiency: vec![[1.0; 2]; shafts],
+            rigid: Vec::new(),
+            without_shaft: None,
+        };
         // behind the last mass of a chain or a branch there is no shaft
         let own = self.chain.shafts().len();
-        carried.look(&self.elements, &|shaft| (shaft < own).then_some(shaft));
+        carried.look(&self.elements, &|shaft| (shaft < own).then_some(shaft), &|mass| mass);
         for branch in &self.branches {
             let own = branch.chain.shafts().len();
-            carried.look(&branch.elements, &|shaft| (shaft < own).then(|| branch.shaft(shaft)));
+            carried
+                .look(&branch.elements, &|shaft| (shaft < own).then(|| branch.shaft(shaft)), &|mass| branch.mass(mass));
         }
         carried
     }
@@ -174,13 +188,16 @@ struct Carried {
     rope: Vec<bool>,
     /// While the motor's side drives, and while it is driven.
     efficiency: Vec<[f64; 2]>,
-    /// An element whose losses no shaft can carry.
+    /// Gears with no shaft behind them, and their masses.
+    rigid: Vec<(usize, RigidGear)>,
+    /// An element whose losses nothing can carry.
     without_shaft: Option<String>,
 }
 
 impl Carried {
-    /// Looks at the elements of a chain or a branch; `at` places its shafts in the whole machine.
-    fn look(&mut self, elements: &[Part], at: &dyn Fn(usize) -> Option<usize>) {
+    /// Looks at the elements of a chain or a branch; `at` and `on` place its shafts and masses in the whole machine.
+    fn look(&mut self, elements: &[Part], at: &dyn Fn(usize) -> Option<usize>, on: &dyn Fn(usize) -> usize) {
+        let whole = stations(elements).last().map_or(0.0, |end| end.chain.masses().last().copied().unwrap_or(0.0));
         // inertia at the end of the elements before
         let mut before = 0.0;
         for (part, Station { chain, .. }) in elements.iter().zip(stations(elements)) {
@@ -193,15 +210,23 @@ impl Carried {
                     rope.into_iter().for_each(|rope| *rope = true);
                     continue;
                 }
-                Element::Gear { efficiency, .. } | Element::Planetary { efficiency, .. } => (behind, [efficiency; 2]),
-                Element::Worm { efficiency, back_efficiency, .. } => (behind, [efficiency, back_efficiency]),
+                Element::Planetary { efficiency, back_efficiency, .. } if efficiency != back_efficiency => {
+                    (last, [efficiency, back_efficiency])
+                }
+                Element::Gear { efficiency, back_efficiency, .. }
+                | Element::Planetary { efficiency, back_efficiency, .. }
+                | Element::Worm { efficiency, back_efficiency, .. } => (behind, [efficiency, back_efficiency]),
                 Element::Belt { efficiency, .. } => (last.saturating_sub(1), [efficiency; 2]),
                 _ => continue,
             };
             match at(shaft).and_then(|shaft| self.efficiency.get_mut(shaft)) {
                 Some(known) => *known = [known[0] * losses[0], known[1] * losses[1]],
-                None if losses != [1.0; 2] => self.without_shaft = Some(part.label.clone()),
-                None => {}
+                None if losses == [1.0; 2] => {}
+                None if last > 0 && before < whole && self.rigid.iter().all(|(mass, _)| *mass != on(last)) => {
+                    let [efficiency, back_efficiency] = losses;
+                    self.rigid.push((on(last), RigidGear { front: before, efficiency, back_efficiency }));
+                }
+                None => self.without_shaft = Some(part.label.clone()),
             }
         }
     }

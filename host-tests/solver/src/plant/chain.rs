@@ -96,8 +96,8 @@ impl Chain {
         self.last(|node| (node.efficiency, node.back_efficiency) = (efficiency, efficiency))
     }
 
-    /// Efficiency, above 0 and up to 1, of the last node's gear while the shaft behind it drives: a worm keeps less of
-    /// the power backwards. Call it after [`Self::efficiency`], which sets both.
+    /// Efficiency, up to 1, of the last node's gear while the shaft behind it drives: a worm keeps less of the power
+    /// backwards, and locks itself at zero or below. Call it after [`Self::efficiency`], which sets both.
     #[must_use]
     pub fn back_efficiency(self, efficiency: f64) -> Self {
         self.last(|node| node.back_efficiency = efficiency)
@@ -138,8 +138,10 @@ impl Chain {
             not_negative("Coulomb friction", place, node.coulomb)?;
             finite("load torque", place, node.load)?;
             let has_shaft = j < self.shafts.len();
-            for (name, eta) in [("efficiency", node.efficiency), ("back efficiency", node.back_efficiency)] {
-                in_range(name, place, eta, eta > 0.0 && eta <= 1.0, "above 0 and up to 1")?;
+            let (eta, back) = (node.efficiency, node.back_efficiency);
+            in_range("efficiency", place, eta, eta > 0.0 && eta <= 1.0, "above 0 and up to 1")?;
+            in_range("back efficiency", place, back, back <= 1.0, "up to 1")?;
+            for (name, eta) in [("efficiency", eta), ("back efficiency", back)] {
                 in_range(name, place, eta, has_shaft || eta == 1.0, "a shaft behind the gear")?;
             }
             if let Some(program) = &node.program {

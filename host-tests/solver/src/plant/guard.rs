@@ -97,24 +97,30 @@ pub(super) fn guards(chain: &Chain, mode: &Mode, regime: &Regime, coulomb: &[f64
             row
         };
         let reach = shaft.origin(1);
-        match (shaft.rope, mode.contact[s]) {
-            (false, 0) => {
+        let contact = mode.contact[s];
+        let side = f64::from(contact.signum());
+        let torque = |sign: f64| {
+            let mut closed = mode.clone();
+            closed.contact[s] = contact.signum();
+            let (row, constant) = elastic_torque(chain, &closed, s);
+            (row.iter().map(|v| sign * v).collect::<Vec<f64>>(), sign * constant)
+        };
+        match contact.abs() {
+            0 => {
                 add(Action::Contact(s, 1), twist(-1.0), idle(), reach);
-                add(Action::Contact(s, -1), twist(1.0), idle(), reach);
+                if !shaft.rope {
+                    add(Action::Contact(s, -1), twist(1.0), idle(), reach);
+                }
             }
-            (false, side) => add(Action::Contact(s, 0), twist(f64::from(side)), idle(), -reach),
-            (true, 0) => add(Action::Contact(s, 1), twist(-1.0), idle(), reach),
-            (true, 1) => {
-                let left = if shaft.damping > 0.0 { TRAILING } else { 0 };
-                let (row, constant) = elastic_torque(chain, mode, s);
+            1 => {
+                let left = if shaft.damping > 0.0 { contact * TRAILING } else { 0 };
+                let (row, constant) = torque(side);
                 add(Action::Contact(s, left), row, idle(), constant);
             }
-            (true, _) => {
-                let mut taut = mode.clone();
-                taut.contact[s] = 1;
-                let (row, constant) = elastic_torque(chain, &taut, s);
-                add(Action::Contact(s, 1), row.iter().map(|v| -v).collect(), idle(), -constant);
-                add(Action::Contact(s, 0), twist(1.0), idle(), -reach);
+            _ => {
+                let (row, constant) = torque(-side);
+                add(Action::Contact(s, contact.signum()), row, idle(), constant);
+                add(Action::Contact(s, 0), twist(side), idle(), -reach);
             }
         }
     }
@@ -132,7 +138,8 @@ pub(super) fn guards(chain: &Chain, mode: &Mode, regime: &Regime, coulomb: &[f64
         }
     }
     for s in 0..chain.shafts.len() {
-        if chain.nodes[s].is_lossy() && mode.carries(chain, s) {
+        // a contact carries one sign alone
+        if chain.nodes[s].is_lossy() && chain.shafts[s].is_linear() {
             let (row, constant) = elastic_torque(chain, mode, s);
             let sign = f64::from(mode.flow[s]);
             add(Action::Flow(s), row.iter().map(|v| v * sign).collect(), idle(), constant * sign);

@@ -6,13 +6,13 @@ use super::layout::Layout;
 
 /// Motion of a node that has no dry friction and no lossy gear.
 pub(super) const FREE: i8 = 2;
-/// A rope that is stretched but whose damper has stopped pulling.
+/// Times its side: a contact that is still closed, but whose damper has taken its torque to zero.
 pub(super) const TRAILING: i8 = 2;
 
 /// Which linear stretch is running.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(super) struct Mode {
-    /// Of each shaft: -1, 0, +1, or [`TRAILING`].
+    /// Of each shaft: -1, 0, +1, or a side times [`TRAILING`].
     pub contact: Vec<i8>,
     /// Of each node: -1, +1, 0 held, or [`FREE`].
     pub motion: Vec<i8>,

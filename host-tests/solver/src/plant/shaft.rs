@@ -28,7 +28,8 @@ impl Shaft {
         Self { stiffness, damping: 0.0, gap: 0.0, rope: true }
     }
 
-    /// The same with damping, N m s/rad, zero or above. It acts only while the shaft carries torque.
+    /// The same with damping, N m s/rad, zero or above. It acts only while the shaft carries torque; a flank never
+    /// pulls, a rope never pushes.
     #[must_use]
     pub const fn damping(mut self, damping: f64) -> Self {
         self.damping = damping;
@@ -48,9 +49,9 @@ impl Shaft {
         !self.rope && self.gap == 0.0
     }
 
-    /// The twist at which the torque of this contact is zero at rest, rad. Contact is -1, 0 or +1.
+    /// The twist at which the torque of this contact is zero at rest, rad.
     pub(super) fn origin(&self, contact: i8) -> f64 {
-        if self.rope { self.gap } else { 0.5 * self.gap * f64::from(contact) }
+        if self.rope { self.gap } else { 0.5 * self.gap * f64::from(contact.signum()) }
     }
 
     /// The twist at which the new shaft carries the elastic torque that this one carries at a twist, in this contact.

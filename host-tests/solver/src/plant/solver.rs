@@ -215,11 +215,10 @@ impl Plant {
                 t if t < -reach && !shaft.rope => -1,
                 _ => 0,
             };
-            if self.elastic(s) < 0.0 {
-                if shaft.rope {
-                    self.mode.contact[s] = super::mode::TRAILING;
-                }
-                self.mode.flow[s] = -1;
+            let (torque, contact) = (self.elastic(s), self.mode.contact[s]);
+            self.mode.flow[s] = if torque < 0.0 { -1 } else { 1 };
+            if !shaft.is_linear() && torque * f64::from(contact) < 0.0 {
+                self.mode.contact[s] = contact * super::mode::TRAILING;
             }
         }
     }

@@ -176,8 +176,8 @@ impl Plant {
                 if new.abs() == 1 {
                     self.mode.flow[shaft] = new;
                 }
-                // a trailing rope is slack to the outside
-                let shown = |contact: i8| if contact == TRAILING { 0 } else { contact };
+                // a trailing contact is open to the outside
+                let shown = |contact: i8| if contact.abs() == TRAILING { 0 } else { contact };
                 if shown(was) != shown(new) {
                     self.log(EventKind::Contact, Place::Shaft(shaft), shown(new));
                 }

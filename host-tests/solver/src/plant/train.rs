@@ -57,6 +57,7 @@ mod pins;
 mod rank;
 mod reading;
 mod rigid;
+mod rigid_gear;
 mod rubbing;
 mod series;
 mod signal;
@@ -82,6 +83,7 @@ pub use motion::Motion;
 use pins::Pinned;
 pub use pins::{FourBarPins, Pins, StrokeLoad};
 pub use rigid::RigidPart;
+pub use rigid_gear::RigidGear;
 pub use rubbing::rubbing;
 pub use signal::Signal;
 pub use source::{Source, Waveform};
@@ -103,6 +105,7 @@ pub struct Coordinate {
     crank: Option<Crank>,
     pins: Option<Pinned>,
     law: Option<Orders>,
+    gear: Option<RigidGear>,
     sources: Vec<Source>,
 }
 
@@ -110,7 +113,17 @@ impl Coordinate {
     /// Of this inertia, kg m2, or mass, kg, above zero; at rest at zero.
     #[must_use]
     pub fn new(inertia: f64) -> Self {
-        Self { inertia, viscous: 0.0, speed: 0.0, angle: 0.0, crank: None, pins: None, law: None, sources: Vec::new() }
+        Self {
+            inertia,
+            viscous: 0.0,
+            speed: 0.0,
+            angle: 0.0,
+            crank: None,
+            pins: None,
+            law: None,
+            gear: None,
+            sources: Vec::new(),
+        }
     }
 
     /// With viscous friction to the ground, N m s/rad, zero or above.
@@ -179,6 +192,13 @@ impl Coordinate {
         self
     }
 
+    /// With a lossy gear in it, which has no shaft behind it.
+    #[must_use]
+    pub fn gear(mut self, gear: RigidGear) -> Self {
+        self.gear = Some(gear);
+        self
+    }
+
     /// With a torque more.
     #[must_use]
     pub fn source(mut self, source: Source) -> Self {
@@ -225,6 +245,15 @@ impl Train {
     pub fn source(mut self, coordinate: usize, source: Source) -> Self {
         if let Some(coordinate) = self.coordinates.get_mut(coordinate) {
             coordinate.sources.push(source);
+        }
+        self
+    }
+
+    /// With a lossy gear in a coordinate that is there already; in none that is not.
+    #[must_use]
+    pub fn gear(mut self, coordinate: usize, gear: RigidGear) -> Self {
+        if let Some(coordinate) = self.coordinates.get_mut(coordinate) {
+            coordinate.gear = Some(gear);
         }
         self
     }
@@ -279,6 +308,7 @@ impl Train {
         for unbalance in &self.unbalances {
             self.validate_unbalance(unbalance)?;
         }
+        self.validate_gears()?;
         match self.rubbing_crank() {
             Some((friction, at)) => Err(PlantError::Parameter {
                 name: "dry friction against what moves, on a crank or mechanism,",

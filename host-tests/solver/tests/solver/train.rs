@@ -3,6 +3,7 @@
 
 mod absorber;
 mod against_chain;
+mod contact;
 mod crank;
 mod gear_pair;
 mod linear;
@@ -12,6 +13,7 @@ mod modes;
 mod mover;
 mod pins;
 mod proof;
+mod rigid_gear;
 mod spur_pair;
 mod start;
 mod transfer;

@@ -22,7 +22,7 @@ pub(super) enum Change {
     Loose(usize, f64),
 }
 
-/// Side of a rope that is stretched but whose damper has stopped pulling.
+/// Times its side: a contact that is closed, but whose damper takes all of its torque.
 const TRAILING: f64 = 0.5;
 
 /// Parameters and discrete state. The continuous state is twists, speeds, angle of the motor.
@@ -31,7 +31,7 @@ pub(super) struct Machine {
     pub load: Vec<f64>,
     pub dry: Vec<f64>,
     pub motor_torque: f64,
-    /// Side on which each shaft is in contact, 0 in the gap, or [`TRAILING`].
+    /// Side on which each shaft is in contact, 0 in the gap, or a side times [`TRAILING`].
     pub side: Vec<f64>,
     /// Sign of the torque of each shaft, for the gear in front of it.
     pub flow: Vec<f64>,
@@ -61,11 +61,10 @@ impl Machine {
             chain: chain.clone(),
         };
         for s in 0..chain.shafts.len() {
-            if machine.torque(y, s) < 0.0 {
-                machine.flow[s] = -1.0;
-                if chain.shafts[s].rope {
-                    machine.side[s] = TRAILING;
-                }
+            let torque = machine.torque(y, s);
+            machine.flow[s] = if torque < 0.0 { -1.0 } else { 1.0 };
+            if !chain.shafts[s].is_linear() && torque * machine.side[s] < 0.0 {
+                machine.side[s] *= TRAILING;
             }
         }
         machine
@@ -91,7 +90,7 @@ impl Machine {
 
     /// Torque of the shaft itself.
     fn torque(&self, y: &[f64], s: usize) -> f64 {
-        if self.side[s] == 0.0 || self.side[s] == TRAILING { 0.0 } else { self.strain(y, s) }
+        if self.side[s].abs() == 1.0 { self.strain(y, s) } else { 0.0 }
     }
 
     /// Torque of the shaft while it is in contact on its side, or on the positive side if it is not.
@@ -99,7 +98,7 @@ impl Machine {
         let shaft = &self.chain.shafts[s];
         let reach = match shaft.gap {
             slack if shaft.rope => slack,
-            backlash => 0.5 * backlash * self.side[s],
+            backlash => 0.5 * backlash * self.side[s].signum(),
         };
         let closing = self.speed(y, s) - self.speed(y, s + 1);
         shaft.stiffness * (y[s] - reach) + shaft.damping * closing
@@ -209,22 +208,15 @@ impl Hybrid for Machine {
         for (s, shaft) in self.chain.shafts.iter().enumerate().filter(|(_, shaft)| !shaft.is_linear()) {
             let reach = if shaft.rope { shaft.gap } else { 0.5 * shaft.gap };
             let size = reach.max(y[s].abs());
-            let back = (self.side[s] * y[s] - reach, size, Change::Contact(s, 0.0));
-            if shaft.rope && self.side[s] != 0.0 {
-                let strain = self.strain(y, s);
-                let pull = shaft.stiffness * reach.max(y[s].abs());
-                if self.side[s] == TRAILING {
-                    all.push((-strain, pull, Change::Contact(s, 1.0)));
-                    all.push((y[s] - reach, size, Change::Contact(s, 0.0)));
-                } else if shaft.damping > 0.0 {
-                    all.push((strain, pull, Change::Contact(s, TRAILING)));
-                } else {
-                    all.push(back);
-                }
+            let (pull, side) = (shaft.stiffness * size, self.side[s].signum());
+            if self.side[s].abs() == TRAILING {
+                all.push((-side * self.strain(y, s), pull, Change::Contact(s, side)));
+                all.push((side * y[s] - reach, size, Change::Contact(s, 0.0)));
                 continue;
             }
             if self.side[s] != 0.0 {
-                all.push(back);
+                let left = if shaft.damping > 0.0 { side * TRAILING } else { 0.0 };
+                all.push((side * self.strain(y, s), pull, Change::Contact(s, left)));
                 continue;
             }
             all.push((reach - y[s], size, Change::Contact(s, 1.0)));
@@ -233,8 +225,7 @@ impl Hybrid for Machine {
             }
         }
         for (s, shaft) in self.chain.shafts.iter().enumerate() {
-            let in_contact = self.side[s].abs() == 1.0;
-            if self.chain.nodes[s].is_lossy() && in_contact {
+            if self.chain.nodes[s].is_lossy() && shaft.is_linear() {
                 let size = shaft.stiffness * y[s].abs();
                 all.push((self.flow[s] * self.torque(y, s), size, Change::Flow(s)));
             }

@@ -19,6 +19,8 @@ enum Action {
     Contact(usize, i8),
     /// The torque of the link changes its sign.
     Flow(usize),
+    /// The torque behind the gear that has no shaft changes its sign, sliding or about to slide this way.
+    Gear(usize, i8),
     /// The friction has come to rest.
     Stop(usize),
     /// The friction breaks loose in this direction.
@@ -93,29 +95,39 @@ impl Motion {
     /// All quantities that must not fall below zero while the stretch lasts.
     fn guards(&self, stretch: &Stretch, mut add: impl FnMut(Action, (Series, Series))) {
         for (l, link) in self.train.links.iter().enumerate().filter(|(_, link)| !link.is_linear()) {
-            let (x, force) = (&stretch.elongation[l], &stretch.strain[l]);
+            let (x, force) = (&stretch.approach[l], &stretch.strain[l]);
             let reach = link.origin(1);
-            match (link.rope, self.mode.contact[l]) {
-                (false, 0) => {
+            let contact = self.mode.contact[l];
+            let side = f64::from(contact.signum());
+            match contact.abs() {
+                0 => {
                     add(Action::Contact(l, 1), x.guard(-1.0, reach));
-                    add(Action::Contact(l, -1), x.guard(1.0, reach));
+                    if !link.rope {
+                        add(Action::Contact(l, -1), x.guard(1.0, reach));
+                    }
                 }
-                (false, side) => add(Action::Contact(l, 0), x.guard(f64::from(side), -reach)),
-                (true, 0) => add(Action::Contact(l, 1), x.guard(-1.0, reach)),
-                (true, 1) => {
-                    let left = if link.damping > 0.0 { TRAILING } else { 0 };
-                    add(Action::Contact(l, left), force.guard(1.0, 0.0));
+                1 => {
+                    let left = if link.damping > 0.0 { contact * TRAILING } else { 0 };
+                    add(Action::Contact(l, left), force.guard(side, 0.0));
                 }
-                (true, _) => {
-                    add(Action::Contact(l, 1), force.guard(-1.0, 0.0));
-                    add(Action::Contact(l, 0), x.guard(1.0, -reach));
+                _ => {
+                    add(Action::Contact(l, contact.signum()), force.guard(-side, 0.0));
+                    add(Action::Contact(l, 0), x.guard(side, -reach));
                 }
             }
         }
         for (l, link) in self.train.links.iter().enumerate() {
-            if link.is_lossy() && self.mode.carries(&self.train, l) {
+            // a contact carries one sign alone
+            if link.is_lossy() && link.is_linear() {
                 let factor = f64::from(self.mode.flow[l]) * link.terms[0].1.signum();
                 add(Action::Flow(l), stretch.strain[l].guard(factor, 0.0));
+            }
+        }
+        for (g, flow) in self.mode.gears.iter().enumerate() {
+            let slip = self.mode.slip[flow.friction];
+            for side in [1, -1].into_iter().filter(|&side| slip == 0 || slip == side) {
+                let sign = f64::from(flow.sign[usize::from(side < 0)]);
+                add(Action::Gear(g, side), stretch.gear[g].guard(sign, sign * self.gear_friction(g, side)));
             }
         }
         for (s, friction) in self.train.frictions.iter().enumerate() {
@@ -169,9 +181,35 @@ impl Motion {
         sum
     }
 
+    /// What dry friction adds to the torque behind a gear before it slides towards `side`.
+    fn gear_friction(&self, gear: usize, side: i8) -> f64 {
+        let friction = self.mode.gears[gear].friction;
+        if self.mode.slip[friction] == 0 { f64::from(side) * self.train.frictions[friction].breakaway } else { 0.0 }
+    }
+
+    /// Signs of the torques behind the gears, as they are now.
+    fn face_gears(&mut self) {
+        let now = Stretch::now(&self.train, &self.mode, &self.state, &self.held, self.now, self.longest(1.0));
+        for g in 0..self.mode.gears.len() {
+            for (i, side) in [1, -1].into_iter().enumerate() {
+                let torque = now.gear[g].value[0] + self.gear_friction(g, side);
+                self.mode.gears[g].sign[i] = if torque < 0.0 { -1 } else { 1 };
+            }
+        }
+    }
+
     /// How far the force that holds a friction is from letting it slip towards `side`.
     fn hold(&self, stretch: &Stretch, s: usize, side: i8, breakaway: f64) -> (Series, Series) {
-        let mut sum = stretch.friction[s].guard(f64::from(side), breakaway);
+        let gear = self.mode.gears.iter().position(|flow| flow.friction == s);
+        let factor = gear.map_or(1.0, |g| {
+            let flow = &self.mode.gears[g];
+            self.train.coordinates[flow.at].gear.map_or(1.0, |gear| flow.factor(&gear, side))
+        });
+        let mut sum = stretch.friction[s].guard(f64::from(side), factor * breakaway);
+        if let Some(g) = gear {
+            let (values, rounding) = stretch.gear[g].guard(f64::from(side) * (factor - 1.0), 0.0);
+            add_to(&mut sum, &values, &rounding);
+        }
         for &l in &self.train.frictions[s].losses {
             if self.mode.carries(&self.train, l) {
                 // motoring, a gear needs 1/eta of the torque; overhauling, it passes eta of it
@@ -194,8 +232,8 @@ impl Motion {
                 if new.abs() == 1 {
                     self.mode.flow[l] = new * self.train.links[l].terms[0].1.signum() as i8;
                 }
-                // a trailing rope is slack to the outside
-                let shown = |contact: i8| if contact == TRAILING { 0 } else { contact };
+                // a trailing contact is open to the outside
+                let shown = |contact: i8| if contact.abs() == TRAILING { 0 } else { contact };
                 if shown(was) != shown(new) {
                     self.log(EventKind::Contact, Place::Shaft(l), shown(new));
                 }
@@ -204,10 +242,17 @@ impl Motion {
                 self.mode.flow[l] = -self.mode.flow[l];
                 self.log(EventKind::Flow, Place::Shaft(l), self.mode.flow[l]);
             }
+            Action::Gear(g, side) => {
+                let sign = &mut self.mode.gears[g].sign[usize::from(side < 0)];
+                *sign = -*sign;
+                let (new, at) = (*sign, self.mode.gears[g].at);
+                self.log(EventKind::Flow, Place::Node(at), new);
+            }
             Action::Stop(s) => {
                 self.rest(s);
                 self.mode.slip[s] = 0;
                 self.mode.gather(&self.train);
+                self.face_gears();
                 self.let_go(s);
                 let new = self.mode.slip[s];
                 let kind = if new == 0 { EventKind::Stop } else { EventKind::Reversal };
@@ -270,12 +315,13 @@ impl Motion {
         let stretch = self.stretch(self.longest(f64::MAX));
         for l in 0..self.train.links.len() {
             let link = &self.train.links[l];
-            let torque = stretch.strain[l].value[0] * link.terms[0].1;
-            self.mode.flow[l] = if torque < 0.0 { -1 } else { 1 };
-            if link.rope && self.mode.contact[l] == 1 && torque < 0.0 {
-                self.mode.contact[l] = TRAILING;
+            let (force, contact) = (stretch.strain[l].value[0], self.mode.contact[l]);
+            self.mode.flow[l] = if force * link.terms[0].1 < 0.0 { -1 } else { 1 };
+            if !link.is_linear() && force * f64::from(contact) < 0.0 {
+                self.mode.contact[l] = contact * TRAILING;
             }
         }
+        self.face_gears();
         for s in 0..self.train.frictions.len() {
             if self.mode.slip[s] == 0 {
                 self.let_go(s);

@@ -27,7 +27,8 @@ impl Leap {
             Source::Starting { power, .. } => *power == 1,
             _ => false,
         };
-        let coordinates = train.coordinates.iter().all(|c| !c.is_cranked() && c.sources.iter().all(linear));
+        let coordinates =
+            train.coordinates.iter().all(|c| !c.is_cranked() && c.gear.is_none() && c.sources.iter().all(linear));
         let links = train.links.iter().all(|l| l.is_linear() && l.variation.is_none() && !l.is_lossy());
         if !(coordinates && links && train.frictions.is_empty() && train.unbalances.is_empty()) {
             return None;

@@ -60,7 +60,8 @@ impl Link {
         Self::new(&[pinion, (wheel.0, -wheel.1)], stiffness)
     }
 
-    /// The same with damping, zero or above. It acts only while the link carries force.
+    /// The same with damping, zero or above. It acts only while the link carries force; a flank never pulls, a rope
+    /// never pushes.
     #[must_use]
     pub fn damping(mut self, damping: f64) -> Self {
         self.damping = damping;
@@ -125,9 +126,9 @@ impl Link {
         !self.rope && self.gap == 0.0
     }
 
-    /// The elongation at which the force of this contact is zero at rest. Contact is -1, 0 or +1.
+    /// The elongation beyond the tooth error at which the force of this contact is zero at rest.
     pub(super) fn origin(&self, contact: i8) -> f64 {
-        if self.rope { self.gap } else { 0.5 * self.gap * f64::from(contact) }
+        if self.rope { self.gap } else { 0.5 * self.gap * f64::from(contact.signum()) }
     }
 
     /// Stiffness at its greatest.

@@ -4,8 +4,9 @@ use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::leap::Leap;
 use super::pins::Pinning;
+use super::rigid_gear::Flow;
 use super::signal::Watch;
-use super::state::{Mode, State, TRAILING};
+use super::state::{Mode, State};
 use super::stretch::Stretch;
 use super::{Coordinate, Friction, Source, Train, Variation, coupling};
 use crate::plant::error::PlantError;
@@ -54,7 +55,19 @@ impl Train {
                 None => self.frictions.push(Friction { losses: vec![l], ..Friction::ground(front[0].0, 0.0) }),
             }
         }
+        for at in (0..self.coordinates.len()).filter(|&at| self.coordinates[at].gear.is_some()) {
+            if self.ground_friction(at).is_none() {
+                self.frictions.push(Friction::ground(at, 0.0));
+            }
+        }
         Ok(Motion::new(self))
+    }
+}
+
+impl Train {
+    /// The friction of a coordinate against the ground.
+    fn ground_friction(&self, at: usize) -> Option<usize> {
+        self.frictions.iter().position(|friction| friction.terms == [(at, 1.0)])
     }
 }
 
@@ -65,9 +78,12 @@ impl Motion {
             speed: train.coordinates.iter().map(|c| c.speed).collect(),
             angle: train.coordinates.iter().map(|c| c.angle).collect(),
         };
-        let contact = train.links.iter().map(|link| {
-            let reach = link.origin(1);
-            let (ahead, back) = (link.elongation > reach, link.elongation < -reach && !link.rope);
+        let teeth = teeth_of(&train);
+        let contact = train.links.iter().enumerate().map(|(l, link)| {
+            let edge = teeth.iter().find(|tooth| tooth.0 == l).map_or(0, |tooth| tooth.1);
+            let error = |variation: &Variation| variation.over(link.stiffness, 0.0, 1.0, edge).1[0];
+            let x = link.elongation - link.variation.as_ref().map_or(0.0, error);
+            let (ahead, back) = (x > link.origin(1), x < -link.origin(1) && !link.rope);
             if link.is_linear() { 1 } else { i8::from(ahead) - i8::from(back) }
         });
         let mut arcs = Vec::new();
@@ -86,11 +102,12 @@ impl Motion {
         }
         let mode = Mode {
             contact: contact.collect(),
+            teeth: teeth.clone(),
             slip: vec![0; train.frictions.len()],
             flow: vec![1; train.links.len()],
             arcs,
+            gears: gears_of(&train),
             pins: pins_of(&train),
-            teeth: teeth_of(&train),
             stuck: Vec::new(),
             holding: DMatrix::zeros(0, 0),
         };
@@ -194,10 +211,6 @@ impl Motion {
         if self.rate * left > REACH { REACH / self.rate } else { left }
     }
 
-    pub(super) fn is_trailing(&self, link: usize) -> bool {
-        self.mode.contact[link] == TRAILING
-    }
-
     /// The angle, rad, of an end of an arc, even numbers begin it, odd ones end it; or the speed, rad/s, of the end of
     /// a piece.
     pub(super) fn arcs_end(&self, arc: usize, passed: i64) -> f64 {
@@ -222,6 +235,12 @@ pub(super) fn teeth_of(train: &Train) -> Vec<(usize, i64)> {
     train.links.iter().enumerate().filter_map(edge).collect()
 }
 
+/// The gears with no shaft behind them, as if they drove forwards.
+pub(super) fn gears_of(train: &Train) -> Vec<Flow> {
+    let geared = (0..train.coordinates.len()).filter(|&at| train.coordinates[at].gear.is_some());
+    geared.filter_map(|at| Some(Flow { at, friction: train.ground_friction(at)?, sign: [1, 1] })).collect()
+}
+
 /// Where every crank with friction in its pins begins, as if its rod pulled; the first event says if it pushes.
 pub(super) fn pins_of(train: &Train) -> Vec<Pinning> {
     let pinning = |(at, coordinate): (usize, &Coordinate)| {
@@ -235,7 +254,14 @@ pub(super) fn pins_of(train: &Train) -> Vec<Pinning> {
 /// highest rate of damping, and how fast stiffnesses and torques swing.
 fn fastest(train: &Train) -> f64 {
     let n = train.coordinates.len();
-    let inertia: Vec<f64> = train.coordinates.iter().map(|c| c.inertia.sqrt()).collect();
+    // of a gear the least that either direction feels, over the most that it makes of what is behind it
+    let least = |c: &Coordinate| {
+        c.gear.map_or(c.inertia, |gear| {
+            let least = gear.back_efficiency.min(1.0 / gear.efficiency);
+            (gear.front + least * (c.inertia - gear.front)) * gear.efficiency
+        })
+    };
+    let inertia: Vec<f64> = train.coordinates.iter().map(|c| least(c).sqrt()).collect();
     let (mut k, mut d) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));
     let mut swing = 0.0_f64;
     for link in &train.links {
@@ -257,7 +283,7 @@ fn fastest(train: &Train) -> f64 {
             .iter()
             .map(|source| if let Source::Line { slope, .. } = source { slope.abs() } else { 0.0 })
             .sum();
-        d[(j, j)] += (coordinate.viscous + slope) / coordinate.inertia;
+        d[(j, j)] += (coordinate.viscous + slope) / inertia[j].powi(2);
         swing = coordinate.sources.iter().map(Source::rate).fold(swing, f64::max);
     }
     let most = |matrix: DMatrix<f64>| SymmetricEigen::new(matrix).eigenvalues.max().max(0.0);

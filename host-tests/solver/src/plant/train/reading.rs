@@ -84,10 +84,7 @@ impl Motion {
     /// Contact of a link: +1 drive side, -1 back side, 0 in the gap, slack for a rope.
     #[must_use]
     pub fn contact(&self, link: usize) -> i8 {
-        match self.mode.contact.get(link) {
-            Some(_) if self.is_trailing(link) => 0,
-            contact => contact.copied().unwrap_or(0),
-        }
+        self.mode.contact.get(link).copied().filter(|contact| contact.abs() == 1).unwrap_or(0)
     }
 
     /// Any signal; NaN for one that is not there.
@@ -156,18 +153,27 @@ impl Motion {
             }
             Signal::Outside(j) => {
                 let speed = &stretch.speed.get(j)?.value;
-                let inertia = self.train.coordinates[j].inertia;
+                // of a gear with no shaft behind it, what is behind it
+                let gear = self.mode.gears.iter().position(|flow| flow.at == j);
+                let coordinate = &self.train.coordinates[j];
+                let inertia = coordinate.inertia - coordinate.gear.map_or(0.0, |gear| gear.front);
                 let mut series = ZERO;
                 for (k, to) in series.iter_mut().enumerate().take(speed.len() - 1) {
                     *to = inertia * (k + 1) as f64 / stretch.length * speed[k + 1];
                 }
                 for (l, link) in self.train.links.iter().enumerate() {
                     let Some(i) = link.terms.iter().position(|term| term.0 == j) else { continue };
+                    if gear.is_some() && i > 0 {
+                        continue;
+                    }
                     let loss = if i == 0 { self.mode.loss(&self.train, l) } else { 1.0 };
                     let share = link.terms[i].1 * loss * carried(l);
                     for (to, force) in series.iter_mut().zip(&stretch.strain[l].value) {
                         *to += share * force;
                     }
+                }
+                if let Some(g) = gear {
+                    series.iter_mut().zip(&stretch.gear[g].value).for_each(|(to, torque)| *to -= torque);
                 }
                 Some(series)
             }

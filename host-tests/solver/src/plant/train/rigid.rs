@@ -26,7 +26,7 @@ impl Train {
     /// The coordinates of the train as parts of one body that a coordinate drives, gaps and slack aside. None where
     /// they are not one: a coordinate that no link of two terms with a stiffness joins, a link to the ground or of
     /// several terms, a loop that is locked or loses power, a damper that slips, a gear that locks itself, friction
-    /// against what moves, an unbalance, an inertia that changes with the angle.
+    /// against what moves, an unbalance, an inertia that changes with the angle, a gear without a shaft behind it.
     #[must_use]
     pub fn rigid(&self, driving: usize) -> Option<Vec<RigidPart>> {
         let mut ways = vec![None; self.coordinates.len()];
@@ -57,7 +57,7 @@ impl Train {
         let mut holding = self.links.iter().filter(|link| link.stiffness > 0.0 || link.damping > 0.0);
         let is_locked = holding.any(|link| strains(&link.terms) || is_loop && link.is_lossy());
         let rubs = self.frictions.iter().any(|friction| friction.terms.len() > 1 || friction.surface != 0.0);
-        let changes = self.coordinates.iter().any(super::Coordinate::is_cranked);
+        let changes = self.coordinates.iter().any(|c| c.is_cranked() || c.gear.is_some());
         if is_locked || rubs || changes || !self.unbalances.is_empty() || ways.iter().any(|way| way.1 <= 0.0) {
             return None;
         }

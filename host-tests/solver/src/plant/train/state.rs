@@ -4,8 +4,9 @@ use nalgebra::DMatrix;
 
 use super::Train;
 use super::pins::Pinning;
+use super::rigid_gear::Flow;
 
-/// Side of a rope that is stretched but whose damper has stopped pulling.
+/// Times its side: a contact that is still closed, but whose damper has taken its force to zero.
 pub(super) const TRAILING: i8 = 2;
 
 /// The continuous state.
@@ -19,12 +20,14 @@ pub(super) struct State {
 /// Which smooth stretch is running.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Mode {
-    /// Of each link: -1, 0, +1, or [`TRAILING`].
+    /// Of each link: -1, 0, +1, or a side times [`TRAILING`].
     pub contact: Vec<i8>,
     /// Of each friction: the direction it slides in, 0 while it sticks.
     pub slip: Vec<i8>,
     /// Of each link: the sign of its torque on its first coordinate, kept only where a lossy gear needs it.
     pub flow: Vec<i8>,
+    /// Gears with no shaft behind them.
+    pub gears: Vec<Flow>,
     /// Arcs as coordinate and source, and how many of their ends have been passed; odd on the arc. So are sources whose
     /// pieces follow the speed.
     pub arcs: Vec<(usize, usize, i64)>,

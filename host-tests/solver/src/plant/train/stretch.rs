@@ -4,7 +4,7 @@ use super::Train;
 use super::series::{Series, TERMS, ZERO, product, value};
 use super::sized::Sized;
 use super::source::Work as SourceWork;
-use super::state::{Mode, State, TRAILING};
+use super::state::{Mode, State};
 use super::varying::Varying;
 use super::{coupling, series};
 
@@ -14,12 +14,16 @@ const LEFT_OUT: f64 = 1e-17;
 pub(super) struct Stretch {
     pub length: f64,
     pub elongation: Vec<Sized>,
+    /// Of every link, the elongation less the tooth error.
+    pub approach: Vec<Sized>,
     pub speed: Vec<Sized>,
     pub angle: Vec<Sized>,
     /// Of every link, the force as if it were in contact on its present side.
     pub strain: Vec<Sized>,
     /// Of every friction, the force along its terms, while it sticks or slides.
     pub friction: Vec<Sized>,
+    /// Of every gear with no shaft behind it, the torque behind it; the dry friction there added while it slides.
+    pub gear: Vec<Sized>,
     /// Of every crank with friction in its pins, the force in its rod along the slider's way.
     pub rod: Vec<Sized>,
 }
@@ -72,10 +76,12 @@ impl Stretch {
         Self {
             length,
             elongation: new(&state.elongation),
+            approach: Vec::new(),
             speed: new(&state.speed),
             angle: new(&state.angle),
             strain: empty(train.links.len()),
             friction: empty(train.frictions.len()),
+            gear: empty(train.coordinates.iter().filter(|coordinate| coordinate.gear.is_some()).count()),
             rod: empty(train.coordinates.iter().filter(|coordinate| coordinate.pins.is_some()).count()),
         }
     }
@@ -113,6 +119,7 @@ impl Stretch {
             }));
         }
         let mut unbalances = coupling::Work::of(train, &self.angle, &self.speed);
+        let inertia: Vec<f64> = (0..n).map(|j| mode.inertia(train, j)).collect();
         let mut net = vec![0.0; n];
         let mut size = vec![0.0; n];
         for k in 0..orders {
@@ -165,9 +172,18 @@ impl Stretch {
                     }
                     None if unbalances.is_some() => {}
                     None => {
-                        let rate = step / coordinate.inertia;
+                        let rate = step / inertia[j];
                         self.speed[j].put(k + 1, rate * net[j], rate * size[j]);
                     }
+                }
+            }
+        }
+        self.approach.clone_from(&self.elongation);
+        for (approach, law) in self.approach.iter_mut().zip(&laws) {
+            if let Law::Varying(over) = law {
+                for (k, error) in over[1].iter().enumerate() {
+                    approach.value[k] -= error;
+                    approach.size[k] += error.abs();
                 }
             }
         }
@@ -193,7 +209,7 @@ impl Stretch {
             let elongation = &mut self.elongation[l];
             elongation.put(k + 1, step * rate, step * rate_size);
             let mut opening = (0.0, 0.0);
-            let origin = link.origin(if mode.contact[l] == TRAILING { 1 } else { mode.contact[l] });
+            let origin = link.origin(mode.contact[l]);
             let (force, force_size) = match &laws[l] {
                 Law::Fixed(stiffness) => {
                     let at = if k == 0 { origin } else { 0.0 };
@@ -234,6 +250,7 @@ impl Stretch {
                 size[at] += share.abs() * force.abs();
             }
         }
+        self.gears(train, mode, k, net, size);
         // sticking: the forces that keep its speed
         let wanted: Vec<(f64, f64)> = mode
             .stuck
@@ -283,7 +300,7 @@ impl Stretch {
             }
             self.length *= 0.5;
             let moved = [&mut self.speed, &mut self.angle, &mut self.elongation];
-            let forces = [&mut self.strain, &mut self.friction, &mut self.rod];
+            let forces = [&mut self.approach, &mut self.strain, &mut self.friction, &mut self.gear, &mut self.rod];
             for sized in moved.into_iter().chain(forces).flatten() {
                 let mut scale = 1.0;
                 for k in 0..TERMS {

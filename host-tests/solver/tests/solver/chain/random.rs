@@ -24,19 +24,24 @@ impl Dice {
     }
 }
 
-fn shaft(dice: &mut Dice) -> Shaft {
+/// A shaft, and the sign of what it may carry: above zero a rope's, that of its twist in a gap, or either.
+fn shaft(dice: &mut Dice) -> (Shaft, fn(f64) -> f64) {
     let stiffness = dice.between(200.0, 5.0e4);
-    let mut shaft = if dice.often(0.25) { Shaft::rope(stiffness) } else { Shaft::elastic(stiffness) };
+    let is_rope = dice.often(0.25);
+    let mut shaft = if is_rope { Shaft::rope(stiffness) } else { Shaft::elastic(stiffness) };
+    let mut sign: fn(f64) -> f64 = if is_rope { |_| 1.0 } else { |_| 0.0 };
     if dice.often(0.6) {
         shaft = shaft.damping(dice.between(0.05, 3.0));
     }
     if dice.often(0.6) {
         shaft = shaft.gap(dice.between(1e-3, 0.1));
+        sign = if is_rope { sign } else { f64::signum };
     }
-    shaft
+    (shaft, sign)
 }
 
-fn chain(dice: &mut Dice) -> Chain {
+fn chain(dice: &mut Dice) -> (Chain, Vec<fn(f64) -> f64>) {
+    let mut signs = Vec::new();
     let mut chain = Chain::motor(dice.between(0.1, 2.0));
     let shafts = 1 + (dice.roll() * 3.0) as usize;
     for s in 0..=shafts {
@@ -53,11 +58,12 @@ fn chain(dice: &mut Dice) -> Chain {
             if dice.often(0.3) {
                 chain = chain.efficiency(dice.between(0.6, 0.99)).back_efficiency(dice.between(0.4, 0.99));
             }
-            let (link, inertia) = (shaft(dice), dice.between(0.05, 2.0));
+            let ((link, sign), inertia) = (shaft(dice), dice.between(0.05, 2.0));
+            signs.push(sign);
             chain = chain.shaft(link, inertia);
         }
     }
-    if dice.often(0.5) { chain.start(Start::Slack) } else { chain }
+    (if dice.often(0.5) { chain.start(Start::Slack) } else { chain }, signs)
 }
 
 #[test]
@@ -65,7 +71,7 @@ fn chains_at_random_prove_their_convergence() {
     let (mut events, mut largest) = (0, 0.0_f64);
     for seed in 1..=200_u64 {
         let mut dice = Dice(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15));
-        let chain = chain(&mut dice);
+        let (chain, signs) = chain(&mut dice);
         let mut run = Recording::new(chain.clone().build().unwrap());
         let node = (dice.roll() * chain.nodes() as f64) as usize;
         let dt = dice.between(1e-4, 2e-3);
@@ -83,6 +89,11 @@ fn chains_at_random_prove_their_convergence() {
                 _ => {}
             }
             run.advance(torque, dt);
+            // a flank never pulls, a rope never pushes
+            for (s, sign) in signs.iter().enumerate() {
+                let (carried, twist) = (run.plant().torque_behind_gear(s), run.plant().twist(s));
+                assert!(carried * sign(twist) >= -1e-9, "seed {seed}, tick {tick}: {carried} at {twist}: {chain:#?}");
+            }
         }
         events += run.plant().events().len();
         match prove(&run) {

@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use nalgebra::{DMatrix, DVector};
 
 use super::super::pins::Pinning;
+use super::super::rigid_gear::Flow;
 use super::super::{Source, Train, Variation};
 use crate::plant::converge::pass::Hybrid;
 
@@ -14,6 +15,8 @@ use crate::plant::converge::pass::Hybrid;
 pub enum Change {
     Side(usize, f64),
     Flow(usize),
+    /// Torque behind a gear with no shaft, for one of both directions.
+    Gear(usize, usize),
     Rest(usize),
     Loose(usize, f64),
     Arc(usize, i64),
@@ -22,7 +25,7 @@ pub enum Change {
     Tooth(usize, i64),
 }
 
-/// Side of a rope that is stretched but whose damper has stopped pulling.
+/// Times its side: a contact that is closed, but whose damper takes all of its force.
 const TRAILING: f64 = 0.5;
 
 /// Share of the largest force that holds something within which another is rounding.
@@ -42,6 +45,7 @@ pub struct Double<'a> {
     /// The frictions that stick, and their forces per torque over the root of the inertia of each coordinate.
     stuck: Vec<usize>,
     holding: DMatrix<f64>,
+    gears: Vec<Flow>,
     arcs: Vec<(usize, usize, i64)>,
     pins: Vec<Pinning>,
     /// Links whose teeth follow an angle, and the edge ahead of each.
@@ -54,14 +58,8 @@ pub struct Double<'a> {
 impl<'a> Double<'a> {
     pub fn new(train: &'a Train, held: Vec<f64>, arcs: &[(usize, usize, i64)]) -> Self {
         let side = train.links.iter().map(|link| {
-            let reach = if link.rope { link.gap } else { 0.5 * link.gap };
-            if link.is_linear() || link.elongation > reach {
-                1.0
-            } else if link.elongation < -reach && !link.rope {
-                -1.0
-            } else {
-                0.0
-            }
+            // contacts close where they are settled
+            f64::from(u8::from(link.is_linear()))
         });
         Self {
             side: side.collect(),
@@ -70,6 +68,7 @@ impl<'a> Double<'a> {
             stuck: Vec::new(),
             holding: DMatrix::zeros(0, 0),
             arcs: arcs.to_vec(),
+            gears: super::super::motion::gears_of(train),
             pins: super::super::motion::pins_of(train),
             teeth: super::super::motion::teeth_of(train),
             held,
@@ -83,12 +82,17 @@ impl<'a> Double<'a> {
     /// Directions of the frictions and flows at the start.
     pub fn settle(&mut self, t: f64, y: &[f64]) {
         (self.settled, self.changed) = (true, true);
-        for l in 0..self.train.links.len() {
+        for (l, link) in self.train.links.iter().enumerate() {
+            let x = y[l] - self.law(t, l).1;
+            if !link.is_linear() {
+                let reach = if link.rope { link.gap } else { 0.5 * link.gap };
+                let back = x < -reach && !link.rope;
+                self.side[l] = f64::from(i8::from(x > reach) - i8::from(back));
+            }
             let strain = self.strain(t, y, l);
-            let toward = strain * self.train.links[l].terms[0].1;
-            self.flow[l] = if toward < 0.0 { -1.0 } else { 1.0 };
-            if self.train.links[l].rope && self.side[l] == 1.0 && strain < 0.0 {
-                self.side[l] = TRAILING;
+            self.flow[l] = if strain * link.terms[0].1 < 0.0 { -1.0 } else { 1.0 };
+            if !link.is_linear() && strain * self.side[l] < 0.0 {
+                self.side[l] *= TRAILING;
             }
         }
         for s in 0..self.way.len() {
@@ -96,6 +100,7 @@ impl<'a> Double<'a> {
             self.way[s] = if over == 0.0 { 0.0 } else { over.signum() };
         }
         self.hold();
+        self.face_gears(t, y);
         for s in 0..self.way.len() {
             if self.way[s] == 0.0 {
                 self.judge(t, y, s);
@@ -158,7 +163,7 @@ impl<'a> Double<'a> {
     /// Force of a link as if it were in contact, on the positive side if it is on none.
     fn strain(&self, t: f64, y: &[f64], l: usize) -> f64 {
         let link = &self.train.links[l];
-        let reach = if link.rope { link.gap } else { 0.5 * link.gap * self.side[l] };
+        let reach = if link.rope { link.gap } else { 0.5 * link.gap * self.side[l].signum() };
         let (k, error, opening) = self.law(t, l);
         let rate: f64 = link.terms.iter().map(|&(at, c)| c * self.speed(y, at)).sum();
         k * (y[l] - reach - error) + link.damping * (rate - opening)
@@ -331,6 +336,11 @@ impl<'a> Double<'a> {
                 net[at] -= c * way * friction.kinetic;
             }
         }
+        for g in 0..self.gears.len() {
+            let [front, behind] = self.geared(t, y, g);
+            let factor = if self.way[self.gears[g].friction] == 0.0 { 1.0 } else { self.gear_loss(g) };
+            net[self.gears[g].at] = front + factor * behind;
+        }
         let mut forces = vec![0.0; self.way.len()];
         for (row, &s) in self.stuck.iter().enumerate() {
             let push = |(j, net): (usize, &f64)| -net / train.coordinates[j].inertia.sqrt() * self.holding[(row, j)];
@@ -339,9 +349,57 @@ impl<'a> Double<'a> {
         forces
     }
 
+    /// Torques in front of a gear and behind it, dry friction included while it slides.
+    fn geared(&self, t: f64, y: &[f64], g: usize) -> [f64; 2] {
+        let Flow { at, friction, .. } = self.gears[g];
+        let coordinate = &self.train.coordinates[at];
+        let sources = coordinate.sources.iter().enumerate();
+        let driven: f64 = sources.map(|(s, source)| self.torque(t, y, at, s, source)).sum();
+        let dry = self.way[friction] * self.train.frictions[friction].kinetic;
+        let mut both = [0.0, self.held[at] + driven - coordinate.viscous * self.speed(y, at) - dry];
+        for (l, link) in self.train.links.iter().enumerate() {
+            for (i, &(_, c)) in link.terms.iter().enumerate().filter(|(_, term)| term.0 == at) {
+                both[usize::from(i == 0)] -= c * self.carried(t, y, l);
+            }
+        }
+        both
+    }
+
+    /// Loss of a gear while it slides, or is to slide towards the direction of its friction.
+    fn gear_loss(&self, g: usize) -> f64 {
+        let flow = &self.gears[g];
+        let way = if self.way[flow.friction] < 0.0 { -1 } else { 1 };
+        self.train.coordinates[flow.at].gear.map_or(1.0, |gear| flow.factor(&gear, way))
+    }
+
+    /// Torque through a gear, if it slides or is about to slide in the first or second direction.
+    fn through(&self, t: f64, y: &[f64], g: usize, direction: usize) -> f64 {
+        let Flow { at, friction, .. } = self.gears[g];
+        let [front, behind] = self.geared(t, y, g);
+        if self.way[friction] == 0.0 {
+            let dry = self.train.frictions[friction].breakaway;
+            return if direction == 0 { dry - behind } else { -dry - behind };
+        }
+        let coordinate = &self.train.coordinates[at];
+        let (loss, before) = (self.gear_loss(g), coordinate.gear.map_or(0.0, |gear| gear.front));
+        let after = coordinate.inertia - before;
+        (after * front + before * -behind) / (before + loss * after)
+    }
+
+    fn face_gears(&mut self, t: f64, y: &[f64]) {
+        for g in 0..self.gears.len() {
+            self.gears[g].sign = [0, 1].map(|direction| if self.through(t, y, g, direction) < 0.0 { -1 } else { 1 });
+        }
+    }
+
     /// How far a friction that sticks is from slipping to each side.
     fn margin(&self, t: f64, y: &[f64], s: usize, force: f64, side: f64) -> f64 {
         let friction = &self.train.frictions[s];
+        if let Some(g) = self.gears.iter().position(|flow| flow.friction == s) {
+            let gear = self.train.coordinates[self.gears[g].at].gear;
+            let loss = gear.map_or(1.0, |gear| self.gears[g].factor(&gear, side as i8));
+            return side * (loss * self.through(t, y, g, usize::from(side < 0.0)) - self.geared(t, y, g)[0]);
+        }
         let mut room = friction.breakaway + side * force;
         for &l in &friction.losses {
             let (eta, back) = (self.train.links[l].efficiency, self.train.links[l].back_efficiency);
@@ -355,6 +413,7 @@ impl<'a> Double<'a> {
     fn judge(&mut self, t: f64, y: &[f64], s: usize) {
         self.way[s] = 0.0;
         self.hold();
+        self.face_gears(t, y);
         let forces = self.balance(t, y, &mut vec![0.0; self.train.coordinates.len()]);
         for side in [1.0, -1.0] {
             if self.margin(t, y, s, forces[s], side) < -ROUNDING * largest(&forces) {
@@ -430,6 +489,11 @@ impl Hybrid for Double<'_> {
                 let share = pinning.pull * loss * mass;
                 (inertia, push) = (inertia - share * way, push - share * bend * speed * speed);
             }
+            if let Some(g) = self.gears.iter().position(|flow| flow.at == j && self.way[flow.friction] != 0.0)
+                && let Some(gear) = coordinate.gear
+            {
+                inertia += (self.gear_loss(g) - 1.0) * (coordinate.inertia - gear.front);
+            }
             out[links + j] = (out[links + j] - push) / (coordinate.inertia + inertia);
             out[links + n + j] = speed;
         }
@@ -447,22 +511,23 @@ impl Hybrid for Double<'_> {
         let mut all = Vec::new();
         for (l, link) in self.train.links.iter().enumerate() {
             let reach = if link.rope { link.gap } else { 0.5 * link.gap };
-            let (x, size) = (y[l], reach.max(y[l].abs()));
-            let pull = self.law(t, l).0 * size;
-            if link.is_lossy() && self.side[l].abs() == 1.0 {
-                let toward = self.strain(t, y, l) * link.terms[0].1;
-                all.push((self.flow[l] * toward, pull, Change::Flow(l)));
-            }
+            let (stiffness, error, _) = self.law(t, l);
+            let (x, size) = (y[l] - error, reach.max(y[l].abs()).max(error.abs()));
+            let pull = stiffness * size;
+            let strain = self.strain(t, y, l);
             if link.is_linear() {
+                if link.is_lossy() {
+                    all.push((self.flow[l] * strain * link.terms[0].1, pull, Change::Flow(l)));
+                }
                 continue;
             }
-            if self.side[l] == TRAILING {
-                all.push((-self.strain(t, y, l), pull, Change::Side(l, 1.0)));
-                all.push((x - reach, size, Change::Side(l, 0.0)));
-            } else if self.side[l] != 0.0 && link.rope && link.damping > 0.0 {
-                all.push((self.strain(t, y, l), pull, Change::Side(l, TRAILING)));
+            let side = self.side[l].signum();
+            if self.side[l].abs() == TRAILING {
+                all.push((-side * strain, pull, Change::Side(l, side)));
+                all.push((side * x - reach, size, Change::Side(l, 0.0)));
             } else if self.side[l] != 0.0 {
-                all.push((self.side[l] * x - reach, size, Change::Side(l, 0.0)));
+                let left = if link.damping > 0.0 { side * TRAILING } else { 0.0 };
+                all.push((side * strain, pull, Change::Side(l, left)));
             } else {
                 all.push((reach - x, size, Change::Side(l, 1.0)));
                 if !link.rope {
@@ -486,6 +551,16 @@ impl Hybrid for Double<'_> {
             let size = largest(&forces).max(friction.breakaway);
             for side in [1.0, -1.0] {
                 all.push((self.margin(t, y, s, forces[s], side), size, Change::Loose(s, side)));
+            }
+        }
+        for (g, flow) in self.gears.iter().enumerate() {
+            let [front, behind] = self.geared(t, y, g);
+            let way = self.way[flow.friction];
+            for direction in [0, 1] {
+                if way == 0.0 || (way < 0.0) == (direction == 1) {
+                    let torque = f64::from(flow.sign[direction]) * self.through(t, y, g, direction);
+                    all.push((torque, front.abs() + behind.abs(), Change::Gear(g, direction)));
+                }
             }
         }
         for (arc, &(j, s, passed)) in self.arcs.iter().enumerate() {
@@ -535,6 +610,7 @@ impl Hybrid for Double<'_> {
                 }
             }
             Change::Flow(l) => self.flow[l] = -self.flow[l],
+            Change::Gear(g, direction) => self.gears[g].sign[direction] *= -1,
             Change::Loose(s, side) => {
                 self.way[s] = side;
                 self.hold();
