@@ -175,7 +175,7 @@ fn special_files_are_refused_and_named() {
             "watch FILE",
         ] {
             // half a gibibyte of addresses: what is read to its end does not fit
-            let program = env!("CARGO_BIN_EXE_cargo-driveline");
+            let program = env!("CARGO_BIN_EXE_lab");
             let line = line.replace("FILE", file);
             let mut command = place.command("/bin/sh");
             command.args(["-c", &format!("ulimit -v 524288; exec '{program}' {line}")]);

@@ -283,7 +283,7 @@ fn figures_are_printed_where_no_page_can_be_written() {
     for (arguments, folder) in
         [(vec!["modes", HOIST], "/proc"), (vec!["modes", HOIST, "--html", "/proc/page.html"], ".")]
     {
-        let program = env!("CARGO_BIN_EXE_cargo-driveline");
+        let program = env!("CARGO_BIN_EXE_lab");
         let output = Command::new(program).args(&arguments).current_dir(folder).output().unwrap();
         assert_eq!(output.status.code(), Some(1));
         assert!(err(&output).contains("cannot be written"), "{}", err(&output));
