@@ -151,4 +151,41 @@ impl<T: ComplexField<RealField = f64> + Copy> Factors<T> {
         }
         x
     }
+
+    /// Of a positive matrix `R R^H`: `R^-1 x`.
+    pub fn half(&self, mut x: Vec<T>) -> Vec<T> {
+        let (n, half) = self.band.shape();
+        for k in 0..n {
+            for row in k + 1..(k + half + 1).min(n) {
+                let by = self.band.get(row, k) * x[k];
+                x[row] -= by;
+            }
+            x[k] = x[k].unscale(self.band.get(k, k).real().sqrt());
+        }
+        x
+    }
+
+    /// Of a positive matrix `R R^H`: `R^-H x`.
+    pub fn half_adjoint(&self, mut x: Vec<T>) -> Vec<T> {
+        let (n, half) = self.band.shape();
+        for k in (0..n).rev() {
+            x[k] = x[k].unscale(self.band.get(k, k).real().sqrt());
+            for row in k + 1..(k + half + 1).min(n) {
+                let by = self.band.get(row, k).conjugate() * x[row];
+                x[k] -= by;
+            }
+        }
+        x
+    }
+
+    /// Of a positive matrix `R R^H`: `R^H x`.
+    pub fn half_times(&self, x: &[T]) -> Vec<T> {
+        let (n, half) = self.band.shape();
+        let entry = |k: usize| {
+            let below = k + 1..(k + half + 1).min(n);
+            let sum = below.fold(x[k], |sum, row| sum + self.band.get(row, k).conjugate() * x[row]);
+            sum.scale(self.band.get(k, k).real().sqrt())
+        };
+        (0..n).map(entry).collect()
+    }
 }

@@ -1,13 +1,14 @@
 //! Natural motions `q exp(lambda t)` of `(K + lambda C + lambda^2 B) q = 0`: the smallest `lambda`.
 //!
-//! Their inverses are the largest eigenvalues of `(q, w) -> (-K^-1 (C q + s B w), q/s)`, `w = lambda q/s`: Arnoldi's
-//! method finds them with a factor of `K` alone. Each is then refined by the quotient of a left and a right vector,
+//! Their inverses are the largest eigenvalues of `(q, v) -> (-K^-1 (C q + B v), q)`, `v = lambda q`: Arnoldi's method
+//! finds them with a factor of `K` alone. Its vectors are `(L^T q, N^T v)` of `K = L L^T` and `M = N N^T`, whose length
+//! is the energy: undamped the operator is skew then, and soft bearings cost no digits. Each is then refined by the quotient of a left and a right vector,
 //! whose error is the product of theirs, with the strain energy summed part by part: of neighbouring nodes that move
 //! almost alike the assembled stiffness has lost digits.
 
 use nalgebra::{Complex, ComplexField, DMatrix};
 
-use super::band::{Band, Factors};
+use super::band::Band;
 
 /// A product of two deflections in the strain energy: stiffness (N/m, or N m), and both by coordinates.
 #[derive(Clone, Debug)]
@@ -175,15 +176,25 @@ impl<T: Eigenvalues> Pencil<'_, T> {
     /// The natural motions that are wanted, in any order. `wanted` picks them of all values that are known so far, or
     /// says that they are too few (`None`); the last call takes what there is.
     pub fn motions(&self, wanted: impl Fn(&[Complex<f64>], bool) -> Option<Vec<usize>>) -> Vec<Motion> {
-        let (n, _) = self.stiffness.shape();
-        let factors = self.stiffness.clone().factors();
-        let scale = self.scale(&factors);
+        let (n, half) = self.stiffness.shape();
+        let (Some(spring), Some(mass)) = (self.spring().positive(), self.mass().positive()) else {
+            return Vec::new();
+        };
+        let circulatory = (0..n).any(|i| {
+            let across = i.saturating_sub(half)..i;
+            across.into_iter().any(|j| self.stiffness.get(i, j) != self.stiffness.get(j, i).conjugate())
+        });
+        let whole = circulatory.then(|| self.stiffness.clone().factors());
         let operator = |x: &[T]| {
-            let (q, w) = x.split_at(n);
-            let w: Vec<T> = w.iter().map(|w| w.scale(scale)).collect();
-            let force = self.damping.times(q).into_iter().zip(self.inertia.times(&w)).map(|(c, b)| -(c + b)).collect();
-            let mut image = factors.solve(force);
-            image.extend(q.iter().map(|q| q.unscale(scale)));
+            let (z, w) = x.split_at(n);
+            let (q, v) = (spring.half_adjoint(z.to_vec()), mass.half_adjoint(w.to_vec()));
+            let pairs = self.damping.times(&q).into_iter().zip(self.inertia.times(&v));
+            let force = pairs.map(|(c, b)| -(c + b)).collect();
+            let mut image = match &whole {
+                Some(whole) => spring.half_times(&whole.solve(force)),
+                None => spring.half(force),
+            };
+            image.extend(mass.half_times(&q));
             image
         };
         let dimension = 2 * n;
@@ -206,12 +217,14 @@ impl<T: Eigenvalues> Pencil<'_, T> {
                 pair.as_ref().is_some_and(|(_, out)| out * value.norm() <= CONVERGED)
             };
             if last || !found.is_empty() && found.iter().all(settled) {
+                let complex = self.spring();
+                let complex = Band::new(n, half, |i, j| complex.get(i, j).complex()).positive();
                 let motions = found.into_iter().filter_map(|(value, pair)| {
                     let mut shape = vec![Complex::new(0.0, 0.0); n];
                     for (share, vector) in pair?.0.into_iter().zip(&basis.vectors) {
                         shape.iter_mut().zip(vector).for_each(|(shape, v)| *shape += share * v.complex());
                     }
-                    self.refined(value, shape)
+                    self.refined(value, complex.as_ref()?.half_adjoint(shape))
                 });
                 return apart(motions);
             }
@@ -219,18 +232,16 @@ impl<T: Eigenvalues> Pencil<'_, T> {
         }
     }
 
-    /// A frequency among the lowest (rad/s), which makes both halves of a state alike in size.
-    fn scale(&self, factors: &Factors<T>) -> f64 {
-        let mut q = scattered(self.stiffness.shape().0, 0);
-        let mut scale = 1.0;
-        for _ in 0..4 {
-            let before = length(&q);
-            q = factors.solve(self.inertia.times(&q));
-            let after = length(&q);
-            scale = (before / after).sqrt();
-            q.iter_mut().for_each(|q| *q = q.unscale(after));
-        }
-        if scale.is_finite() && scale > 0.0 { scale } else { 1.0 }
+    /// The symmetric part of the stiffness.
+    fn spring(&self) -> Band<T> {
+        let (n, half) = self.stiffness.shape();
+        Band::new(n, half, |i, j| (self.stiffness.get(i, j) + self.stiffness.get(j, i).conjugate()).scale(0.5))
+    }
+
+    /// The inertia without what the spin makes of it.
+    fn mass(&self) -> Band<T> {
+        let (n, half) = self.inertia.shape();
+        Band::new(n, half, |i, j| T::from_real(self.inertia.get(i, j).real()))
     }
 
     fn at(&self, value: Complex<f64>) -> Band<Complex<f64>> {

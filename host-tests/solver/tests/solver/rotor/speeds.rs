@@ -166,6 +166,12 @@ fn a_shaft_on_soft_springs_whirls_as_a_rigid_rotor() {
             assert!((critical.speed / tilt - 1.0).abs() < close, "{stiffness}: {critical:?} {tilt}");
             assert_eq!(critical.sense, sense);
         }
+        // at rest, and far above the springs, the vibrations by Jacobi's rotations
+        let at_rest = model.campbell(&[0.0], 8).unwrap();
+        let frequencies = Modal::of(&model).unwrap().frequencies();
+        for (natural, frequency) in at_rest.whirls[0].iter().zip(&frequencies[..8]) {
+            assert!((natural.frequency / frequency - 1.0).abs() < close, "{stiffness}: {natural:?} {frequency}");
+        }
         for (mode, (_, shape)) in model.forward_shapes(2).iter().enumerate() {
             for (node, at) in shape.iter().enumerate() {
                 let straight = if mode == 0 { 1.0 } else { 1.0 - 0.2 * node as f64 };
