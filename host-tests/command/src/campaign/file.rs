@@ -3,22 +3,24 @@
 use driveline::design::SpeedLoopDesign;
 use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::governor::{SpeedLoop, SpeedLoopConfig};
+use driveline::machine::Losses;
 use driveline::observer::{
-    GearedConfig, GearedObserver, Observer, RigidConfig, RigidObserver, TwoMassConfig, TwoMassObserver,
+    GearedConfig, GearedObserver, LoadGearConfig, LoadGearObserver, Observer, RigidConfig, RigidObserver,
+    TwoMassConfig, TwoMassObserver,
 };
 use driveline::sample::Sample;
-use driveline::settings::{Bases, Gear, SpeedLoopSettings};
+use driveline::settings::{Bases, Gear, LoadGear, SpeedLoopSettings};
 use driveline_firmware::scene::{Input, Output, Scene};
-use driveline_solver::plant::train::{Coordinate, Link, Source, Train};
+use driveline_solver::plant::train::{Coordinate, Source, Train};
 use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft, Start};
 
 use crate::closed_loop::sensors::Encoder;
 use crate::drivetrains::departure::Departure;
 use crate::drivetrains::plant::Body;
 use crate::drivetrains::scenario::{Action, Machine, Scenario};
-use crate::machine_file::MachineFile;
 use crate::machine_file::designs::Designs;
 use crate::machine_file::train::too_stiff;
+use crate::machine_file::{MachineFile, ShaftLosses};
 
 /// The observer of a file's drive, in `f32`, with the exact step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,9 +80,6 @@ impl FileCase {
         let refused = |error: String| format!("no controller can be designed: {error}");
         let damped = machine.with_dampers().map_err(refused)?;
         let two = damped.two_masses().ok_or("a campaign needs a machine with a shaft; this one is rigid")?;
-        if let Some(label) = machine.losses_of_no_chain() {
-            return Err(format!("the losses of `{label}` need a shaft behind it; leave it out of a copy of the file"));
-        }
         let designs = Designs::of(&damped, &two).map_err(|error| refused(error.to_string()))?;
         let cycle = machine.cycle(two.gravity_torque);
         let ramp = machine.limits.speed / designs.ramp;
@@ -196,23 +195,26 @@ impl FileCase {
         let rating = self.machine.rating();
         let limits = Limits::<f32>::try_new(&rating.screening(encoder, rate), Bases::SI).map_err(sentence)?;
         let governor = governor(speed_loop, rating.torque_limit, *ramp)?;
-        let gear = Gear {
-            efficiency: self.machine.chain.efficiency(),
-            inertia: two.motor_inertia,
-            deadband: 8.0 * encoder.resolution().map_err(|error| error.to_string())?,
-        };
+        let Losses { before: [efficiency, _], behind: [driving, driven] } = self.machine.chain.losses();
+        let deadband = 8.0 * encoder.resolution().map_err(|error| error.to_string())?;
+        let gear = Gear { efficiency, inertia: two.motor_inertia, deadband };
+        let behind = LoadGear { efficiency: driving, back_efficiency: driven, inertia: two.load_inertia };
         let period = 1.0 / f64::from(self.rate());
         match observer {
             FileObserver::TwoMass => {
                 let config = TwoMassConfig::<f32>::try_new(two_masses, Bases::SI).map_err(sentence)?;
                 let observer = GearedConfig::<f32, _>::try_new(config, &gear, period, Bases::SI).map_err(sentence)?;
-                Ok(Observed::<GearedObserver<TwoMassObserver<f32>>>::boxed(limits, observer, governor))
+                let observer =
+                    LoadGearConfig::<f32, _>::try_new(observer, &behind, period, Bases::SI).map_err(sentence)?;
+                Ok(Observed::<Geared<TwoMassObserver<f32>>>::boxed(limits, observer, governor))
             }
             FileObserver::Rigid => {
                 let share = two.load_inertia / two.total_inertia();
                 let config = RigidConfig::<f32>::try_new(rigid, share, Bases::SI).map_err(sentence)?;
                 let observer = GearedConfig::<f32, _>::try_new(config, &gear, period, Bases::SI).map_err(sentence)?;
-                Ok(Observed::<GearedObserver<RigidObserver<f32>>>::boxed(limits, observer, governor))
+                let observer =
+                    LoadGearConfig::<f32, _>::try_new(observer, &behind, period, Bases::SI).map_err(sentence)?;
+                Ok(Observed::<Geared<RigidObserver<f32>>>::boxed(limits, observer, governor))
             }
         }
     }
@@ -225,7 +227,7 @@ impl FileCase {
 /// What the plant refuses.
 fn plant(machine: &MachineFile, load: [(f64, f64); 4], by: &Departure) -> Result<Body, PlantError> {
     let (masses, shafts) = (machine.chain.masses(), machine.chain.shafts());
-    let (rope, efficiency) = machine.ropes_and_efficiencies();
+    let (rope, losses) = machine.ropes_and_losses();
     let (weight, last) = (machine.chain.gravity_torque() * by.load, masses.len() - 1);
     let loaded = |node: usize, inertia: f64| if node == last { inertia * by.load_inertia * by.load } else { inertia };
     let viscous = machine.viscous();
@@ -238,18 +240,16 @@ fn plant(machine: &MachineFile, load: [(f64, f64); 4], by: &Departure) -> Result
         let flank = if weight > 0.0 && !rope[s] { 0.5 * gap } else { 0.0 };
         twists.push(flank + weight / stiffness);
         let inertia = loaded(s + 1, *inertia);
-        let mut link = Link::shaft(s, s + 1, stiffness).damping(shaft.damping).gap(gap).elongated(twists[s]);
-        if efficiency[s] != [1.0; 2] {
-            let [ahead, back] =
-                efficiency[s].map(|efficiency| (efficiency + by.efficiency).clamp(LEAST_EFFICIENCY, 1.0));
-            known = known.efficiency(ahead).back_efficiency(back);
-            link = link.efficiency(ahead).back_efficiency(back);
-        }
+        let losses = losses[s].map(|efficiency| (efficiency + by.efficiency).clamp(LEAST_EFFICIENCY, 1.0));
+        let [ahead, back] = losses.front;
+        known = known.efficiency(ahead).back_efficiency(back);
+        let link = losses.link(s, s + 1, stiffness).damping(shaft.damping).gap(gap).elongated(twists[s]);
         known = known.shaft(of.damping(shaft.damping).gap(gap), inertia).viscous(viscous[s + 1]);
         train = train.coordinate(Coordinate::new(inertia).viscous(viscous[s + 1]));
         train = train.link(if rope[s] { link.rope() } else { link });
     }
-    if machine.dampers.is_empty() {
+    // a chain has no loss behind a shaft
+    if machine.dampers.is_empty() && losses.iter().all(|shaft| shaft.end == ShaftLosses::NONE.end) {
         let start = Start::Given { twists, speeds: vec![0.0; masses.len()] };
         return Ok(known.load(weight).program(LoadProgram::table(&load)).start(start).build()?.into());
     }
@@ -262,6 +262,9 @@ fn governor(design: &SpeedLoopDesign, torque_limit: f64, ramp: f64) -> Result<Sp
     let settings = SpeedLoopSettings { torque_limit, ramp };
     SpeedLoopConfig::<f32>::try_new(design, settings, Bases::SI).map_err(|error| error.to_string())
 }
+
+/// An observer between gears with losses.
+type Geared<O> = LoadGearObserver<GearedObserver<O>>;
 
 /// A drive with an observer and a speed loop.
 type Driven<O> = Drive<f32, O, (), SpeedLoop<f32>>;

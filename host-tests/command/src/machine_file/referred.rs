@@ -12,15 +12,14 @@ pub(super) struct Referred {
     pub links: Vec<(String, Link)>,
 }
 
-/// The masses and shafts of a machine. The losses of a gear, a worm or a planetary set belong to the shaft behind it;
-/// where a shaft ends in it, to that shaft; those of a belt to the belt. A rope only pulls; the weight of what is
-/// lifted pulls backwards on the last mass of its chain or branch.
+/// The masses and shafts of a machine, with its losses as [`ShaftLosses`] has them. A rope only pulls; the weight of
+/// what is lifted pulls backwards on the last mass of its chain or branch.
 ///
 /// # Errors
-/// The label of an element whose losses no shaft can carry.
+/// The label of an element whose losses no shaft can carry: there is none.
 pub(super) fn referred(machine: &MachineFile) -> Result<Referred, String> {
     let (masses, shafts) = machine.names();
-    let Carried { rope, efficiency, without_shaft } = machine.carried();
+    let Carried { rope, losses, without_shaft } = machine.carried();
     if let Some(label) = without_shaft {
         return Err(label);
     }
@@ -35,11 +34,7 @@ pub(super) fn referred(machine: &MachineFile) -> Result<Referred, String> {
     };
     let link = |(s, joint): (usize, driveline::machine::Joint)| {
         let shaft = joint.shaft;
-        let bare = Link::shaft(joint.from, joint.to, shaft.stiffness)
-            .damping(shaft.damping)
-            .gap(shaft.gap)
-            .efficiency(efficiency[s][0])
-            .back_efficiency(efficiency[s][1]);
+        let bare = losses[s].link(joint.from, joint.to, shaft.stiffness).damping(shaft.damping).gap(shaft.gap);
         if rope[s] { bare.rope() } else { bare }
     };
     Ok(Referred {
@@ -52,14 +47,13 @@ pub(super) fn referred(machine: &MachineFile) -> Result<Referred, String> {
 }
 
 impl MachineFile {
-    /// Of each shaft: whether it is a rope, and the efficiencies that it carries while the motor drives and while the
-    /// load does.
-    pub fn ropes_and_efficiencies(&self) -> (Vec<bool>, Vec<[f64; 2]>) {
+    /// Of each shaft: whether it is a rope, and the losses of the gears at its ends.
+    pub fn ropes_and_losses(&self) -> (Vec<bool>, Vec<ShaftLosses>) {
         let carried = self.carried();
-        (carried.rope, carried.efficiency)
+        (carried.rope, carried.losses)
     }
 
-    /// The label of an element whose losses no chain carries: no shaft is behind it.
+    /// The label of an element whose losses no chain carries: there is no shaft before it or behind it.
     pub fn losses_of_no_chain(&self) -> Option<String> {
         self.carried().without_shaft
     }
@@ -67,13 +61,27 @@ impl MachineFile {
     fn carried(&self) -> Carried {
         let shafts = self.joints().len();
         let mut carried =
-            Carried { rope: vec![false; shafts], efficiency: vec![[1.0; 2]; shafts], without_shaft: None };
+            Carried { rope: vec![false; shafts], losses: vec![ShaftLosses::NONE; shafts], without_shaft: None };
         // behind the last mass of a chain or a branch there is no shaft
         let own = self.chain.shafts().len();
         carried.look(&self.elements, &|shaft| (shaft < own).then_some(shaft));
         for branch in &self.branches {
             let own = branch.chain.shafts().len();
             carried.look(&branch.elements, &|shaft| (shaft < own).then(|| branch.shaft(shaft)));
+        }
+        for s in 0..own {
+            let ShaftLosses { front, end } = carried.losses[s];
+            if front == ShaftLosses::NONE.front || end == ShaftLosses::NONE.end {
+                continue;
+            }
+            match s.checked_sub(1).map(|before| &mut carried.losses[before]) {
+                // a link has the losses of one end
+                Some(before) if before.front == ShaftLosses::NONE.front => {
+                    before.end = front;
+                    carried.losses[s].front = ShaftLosses::NONE.front;
+                }
+                _ => carried.losses[s] = ShaftLosses { front: both(front, end), end: ShaftLosses::NONE.end },
+            }
         }
         carried
     }
@@ -169,11 +177,51 @@ impl MachineFile {
     }
 }
 
+/// Efficiencies of the gears at the ends of a shaft, each while the motor's side drives and while it is driven.
+///
+/// The losses of a gear, a worm or a planetary set belong to the shaft behind it, those of a belt to the belt. Where a
+/// shaft ends in the gear and another one follows, they belong to that shaft. Where none follows, they act at the end of
+/// the last shaft, which then has its own torque in front of them. A shaft with losses at both ends passes those of its
+/// front to the end of the shaft before; where that has some, or is none, both act at the front.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShaftLosses {
+    /// Between the mass before and the shaft.
+    pub front: [f64; 2],
+    /// Between the shaft and the mass behind.
+    pub end: [f64; 2],
+}
+
+impl ShaftLosses {
+    /// None at either end.
+    pub const NONE: Self = Self { front: [1.0; 2], end: [1.0; 2] };
+
+    /// A shaft with these losses, as a link. The first term of a link carries its losses.
+    pub fn link(self, from: usize, to: usize, stiffness: f64) -> Link {
+        let Self { front: [ahead, back], end: [end_ahead, end_back] } = self;
+        if self.end == Self::NONE.end {
+            Link::shaft(from, to, stiffness).efficiency(ahead).back_efficiency(back)
+        } else {
+            let reversed = Link::new(&[(to, -1.0), (from, 1.0)], stiffness);
+            reversed.efficiency(end_back).back_efficiency(end_ahead)
+        }
+    }
+
+    /// The same with every efficiency changed.
+    #[must_use]
+    pub fn map(self, change: impl Fn(f64) -> f64) -> Self {
+        let lossy = |pair: [f64; 2]| if pair == [1.0; 2] { pair } else { pair.map(&change) };
+        Self { front: lossy(self.front), end: lossy(self.end) }
+    }
+}
+
+fn both(one: [f64; 2], other: [f64; 2]) -> [f64; 2] {
+    [one[0] * other[0], one[1] * other[1]]
+}
+
 /// What each shaft carries beside its torque.
 struct Carried {
     rope: Vec<bool>,
-    /// While the motor's side drives, and while it is driven.
-    efficiency: Vec<[f64; 2]>,
+    losses: Vec<ShaftLosses>,
     /// An element whose losses no shaft can carry.
     without_shaft: Option<String>,
 }
@@ -185,7 +233,7 @@ impl Carried {
         let mut before = 0.0;
         for (part, Station { chain, .. }) in elements.iter().zip(stations(elements)) {
             let last = chain.masses().len() - 1;
-            let behind = if last > 0 && before == 0.0 { last - 1 } else { last };
+            let ends_in_shaft = last > 0 && before == 0.0;
             before = chain.masses()[last];
             let (shaft, losses) = match part.element {
                 Element::Rope { .. } => {
@@ -193,15 +241,22 @@ impl Carried {
                     rope.into_iter().for_each(|rope| *rope = true);
                     continue;
                 }
-                Element::Gear { efficiency, .. } | Element::Planetary { efficiency, .. } => (behind, [efficiency; 2]),
-                Element::Worm { efficiency, back_efficiency, .. } => (behind, [efficiency, back_efficiency]),
+                Element::Gear { efficiency, .. } | Element::Planetary { efficiency, .. } => (last, [efficiency; 2]),
+                Element::Worm { efficiency, back_efficiency, .. } => (last, [efficiency, back_efficiency]),
                 Element::Belt { efficiency, .. } => (last.saturating_sub(1), [efficiency; 2]),
                 _ => continue,
             };
-            match at(shaft).and_then(|shaft| self.efficiency.get_mut(shaft)) {
-                Some(known) => *known = [known[0] * losses[0], known[1] * losses[1]],
-                None if losses != [1.0; 2] => self.without_shaft = Some(part.label.clone()),
-                None => {}
+            let is_belt = matches!(part.element, Element::Belt { .. });
+            let behind = at(shaft).and_then(|shaft| self.losses.get(shaft).map(|_| shaft));
+            let ending = last.checked_sub(1).and_then(at);
+            match (behind, ending) {
+                (Some(_), Some(own)) if ends_in_shaft && !is_belt => {
+                    self.losses[own].front = both(self.losses[own].front, losses);
+                }
+                (Some(shaft), _) => self.losses[shaft].front = both(self.losses[shaft].front, losses),
+                (None, Some(own)) => self.losses[own].end = both(self.losses[own].end, losses),
+                (None, None) if losses != [1.0; 2] => self.without_shaft = Some(part.label.clone()),
+                (None, None) => {}
             }
         }
     }
