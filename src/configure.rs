@@ -33,6 +33,7 @@
 //! | `BacklashObserver` | [`Machine::BACKLASH_OBSERVER`] | a gap in the chain |
 //! | `CrankObserver` | [`HasCrank::CRANK_OBSERVER`] | [`HasCrank`] |
 //! | `GearedObserver` | those of its observer, [`Machine::GEAR`] | |
+//! | `LoadGearObserver` | those of its observer, [`Machine::LOAD_GEAR`] | |
 //! | `EccentricityObserver` | those of its observer | |
 //! | `SpeedLoop` | [`Machine::SPEED_LOOP`], [`Machine::RAMP`], torque limit, those of its filters | |
 //! | `SetpointLag` | none | |

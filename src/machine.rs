@@ -55,7 +55,7 @@ mod train_reduce;
 mod two_mass;
 
 pub use belt::Belt;
-pub use chain::{CAPACITY, Chain, Shaft};
+pub use chain::{CAPACITY, Chain, Losses, Shaft};
 pub use crank::{CrankSlider, Travel, VariableInertia};
 pub use cranked::Cranked;
 pub use damper::{CentrifugalPendulum, Damper, FrictionDamper, Resonance};

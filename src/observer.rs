@@ -12,7 +12,7 @@
 //! | [`SemiImplicitObserver`] | motor speed, load speed, shaft torque, load torque | soft shafts sampled fast |
 //! | [`CrankObserver`] | speed, load torque, crank angle | rigid machines with a crank: an inertia that depends on the angle |
 //!
-//! [`GearedObserver`] puts any of them behind a gear with losses.
+//! [`GearedObserver`] puts any of them behind a gear with losses, [`LoadGearObserver`] in front of one.
 //!
 //! # The angle
 //! No observer stores the angle it estimates. Its [`AngleTracker`] stores the last measured angle as a `u32` of 2^32
@@ -28,6 +28,7 @@ mod angle;
 mod backlash;
 mod cranked;
 mod geared;
+mod load_gear;
 mod rigid;
 mod semi_implicit;
 mod two_mass;
@@ -36,6 +37,7 @@ pub use angle::{AngleTracker, Prediction};
 pub use backlash::{BacklashConfig, BacklashObserver, Contact, Correction, FreeFlight, Gap};
 pub use cranked::{CrankConfig, CrankObserver, TABLE_POINTS, TablePoint};
 pub use geared::{GearedConfig, GearedObserver, Stiction};
+pub use load_gear::{LoadGearConfig, LoadGearObserver};
 pub use rigid::{RigidConfig, RigidObserver};
 pub use semi_implicit::{SemiImplicitConfig, SemiImplicitObserver};
 pub use two_mass::{TwoMassConfig, TwoMassObserver};

@@ -25,7 +25,8 @@ pub struct Sample<N> {
 pub struct Estimate<N> {
     /// Speed of the motor (rad/s; per unit in fixed point).
     pub motor_speed: N,
-    /// Torque in the shaft (N m; per unit in fixed point); positive where the motor drives the load.
+    /// Torque in the shaft (N m; per unit in fixed point), the softest one of the chain: that of its twist, without the
+    /// loss of a gear on either side; positive where the motor drives the load.
     pub shaft_torque: N,
     /// Speed of the load (rad/s; per unit in fixed point).
     pub load_speed: N,

@@ -30,7 +30,7 @@ pub use actuator_monitor::ActuatorMonitorSettings;
 pub use bases::Bases;
 pub use error::Error;
 pub use fluctuation::Cycle;
-pub use geared::Gear;
+pub use geared::{Gear, LoadGear};
 pub use governor_parts::SequencerSettings;
 pub use limits::Screening;
 pub use load_sharing::LoadSharingSettings;

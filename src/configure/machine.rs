@@ -6,7 +6,7 @@ use crate::design::{
     SpeedLoopTuning, Tolerance, TwoMassDesign,
 };
 use crate::machine::{Chain, Match, TwoMass};
-use crate::settings::{Bases, Cycle, Gear, Screening};
+use crate::settings::{Bases, Cycle, Gear, LoadGear, Screening};
 
 /// Rating of the motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,13 +98,19 @@ pub trait Machine {
     /// The observer of backlash, from the two masses with their gap.
     const BACKLASH_OBSERVER: BacklashDesign =
         Self::TWO_MASS.backlash_observer(Self::RATE, Self::ENCODER, Self::DISTURBANCE, Self::BACKLASH_TUNING);
-    /// The gear's losses as the observer has to know them: the chain's efficiency, the inertia on the motor side, and
-    /// eight counts of the encoder by which the motor can turn while friction holds the gear. 3 of 3 machines with a
+    /// The losses before the shaft as the observer has to know them: their efficiency by [`Chain::losses`], the inertia
+    /// on the motor side, and eight counts of the encoder by which the motor can turn while friction holds the gear. 3 of 3 machines with a
     /// lossy gear keep it.
     const GEAR: Gear = Gear {
-        efficiency: Self::CHAIN.efficiency(),
+        efficiency: Self::CHAIN.losses().before[0],
         inertia: Self::TWO_MASS.motor_inertia,
         deadband: 8.0 * count(Self::ENCODER),
+    };
+    /// The losses behind the shaft as the observer has to know them, by [`Chain::losses`].
+    const LOAD_GEAR: LoadGear = LoadGear {
+        efficiency: Self::CHAIN.losses().behind[0],
+        back_efficiency: Self::CHAIN.losses().behind[1],
+        inertia: Self::TWO_MASS.load_inertia,
     };
 
     /// How brisk the speed loop is: [`SpeedLoopTuning::of`] the two masses, 0.4 of the antiresonance.

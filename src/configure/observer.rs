@@ -5,8 +5,9 @@ use crate::design::CrankedDesign;
 use crate::learning::{Correction, EccentricityObserver};
 use crate::number::Fixed;
 use crate::observer::{
-    BacklashConfig, BacklashObserver, CrankConfig, CrankObserver, GearedConfig, GearedObserver, Observer, RigidConfig,
-    RigidObserver, SemiImplicitConfig, SemiImplicitObserver, TwoMassConfig, TwoMassObserver,
+    BacklashConfig, BacklashObserver, CrankConfig, CrankObserver, GearedConfig, GearedObserver, LoadGearConfig,
+    LoadGearObserver, Observer, RigidConfig, RigidObserver, SemiImplicitConfig, SemiImplicitObserver, TwoMassConfig,
+    TwoMassObserver,
 };
 use crate::settings::Bases;
 
@@ -67,6 +68,20 @@ macro_rules! observers {
             type Config = GearedConfig<$number, <O as Observer<$number>>::Config>;
             const CONFIG: Self::Config =
                 GearedConfig::<$number, _>::new(<O as Configure<M, $number>>::CONFIG, &M::GEAR, M::PERIOD, $bases);
+            const LOOP: LoopPart = <O as Configure<M, $number>>::LOOP;
+        }
+
+        impl<M: Machine, O> Configure<M, $number> for LoadGearObserver<O>
+        where
+            O: Observer<$number, Config: Copy> + Configure<M, $number, Config = <O as Observer<$number>>::Config>,
+        {
+            type Config = LoadGearConfig<$number, <O as Observer<$number>>::Config>;
+            const CONFIG: Self::Config = LoadGearConfig::<$number, _>::new(
+                <O as Configure<M, $number>>::CONFIG,
+                &M::LOAD_GEAR,
+                M::PERIOD,
+                $bases,
+            );
             const LOOP: LoopPart = <O as Configure<M, $number>>::LOOP;
         }
     };

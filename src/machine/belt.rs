@@ -61,6 +61,7 @@ impl Chain {
         }
         self.shaft(belt.stiffness(), super::Damping(belt.at_driving(belt.damping.0)))
             .gear(belt.ratio(), belt.efficiency)
+            .close()
     }
 
     /// A ball screw: turning becomes travel, by its lead (m) a turn. A drum of diameter `lead/pi` travels alike.

@@ -23,6 +23,16 @@ pub struct Shaft {
     pub back_efficiency: f64,
 }
 
+/// Efficiencies of a chain on either side of its softest shaft, each while the motor drives and while the load does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Losses {
+    /// Between the motor and the shaft.
+    pub before: [f64; 2],
+    /// Between the shaft and the load.
+    pub behind: [f64; 2],
+}
+
 impl Shaft {
     pub(crate) const NONE: Self =
         Self { stiffness: 0.0, damping: 0.0, gap: 0.0, efficiency: 1.0, back_efficiency: 1.0 };
@@ -35,9 +45,9 @@ impl Shaft {
 /// one (stiffnesses in series, gaps added, damping by equal loss). A backlash belongs to the shaft before it when
 /// nothing lies between, or else to the next one.
 ///
-/// The losses of a gear belong to the shaft before it when nothing lies between, as a belt's do, or else to the next
-/// one. With no shaft after it they count in the chain's own weight and referred inertias alone, not in those of a
-/// branch on its mass.
+/// The losses of a gear belong to the next shaft; where a shaft ends in the gear and another one follows, and in a
+/// belt, to the shaft before. With no shaft after it they act between the last shaft and the load
+/// ([`losses`](Self::losses)), not on a branch on its mass.
 ///
 /// The chain is referred without losses, as the observer requires: energy is conserved, and friction, constant or slow,
 /// becomes part of the estimated load torque. Only [`gravity_torque_hoisting`](Self::gravity_torque_hoisting) and
@@ -61,6 +71,8 @@ pub struct Chain {
     pub(super) gap: f64,
     /// Efficiencies that wait for the next shaft, while the motor drives and while the load does.
     waiting: [f64; 2],
+    /// Those of gears that the last shaft ends in.
+    ending: [f64; 2],
     /// Weight torque without losses, hoisting and lowering (N m).
     pub(super) gravity: [f64; 3],
     /// The first element that was refused, and why.
@@ -91,6 +103,7 @@ impl Chain {
             flow: Flow::Lossless,
             gap: 0.0,
             waiting: [1.0; 2],
+            ending: [1.0; 2],
             gravity: [0.0; 3],
             error: if right { None } else { Some(Error::MotorInertia) },
         }
@@ -191,13 +204,50 @@ impl Chain {
         self.count > 1 && self.inertia[self.count - 1] == 0.0
     }
 
-    /// Gives the efficiencies that wait to the last shaft.
+    /// Gives the efficiencies that wait to the end of the last shaft.
     pub(super) const fn settle(mut self) -> Self {
-        let last = &mut self.shaft[self.count - 2];
-        last.efficiency *= self.waiting[0];
-        last.back_efficiency *= self.waiting[1];
+        self.ending = [self.ending[0] * self.waiting[0], self.ending[1] * self.waiting[1]];
         self.waiting = [1.0; 2];
         self
+    }
+
+    /// Gives the efficiencies at the end of the last shaft to that shaft.
+    pub(super) const fn close(mut self) -> Self {
+        if self.count > 1 {
+            let last = &mut self.shaft[self.count - 2];
+            last.efficiency *= self.ending[0];
+            last.back_efficiency *= self.ending[1];
+            self.ending = [1.0; 2];
+        }
+        self
+    }
+
+    /// Efficiencies before and behind the softest shaft.
+    ///
+    /// The two masses that stand for the chain have the torque of that shaft. A chain without a shaft has all its
+    /// losses before it.
+    #[must_use]
+    pub const fn losses(&self) -> Losses {
+        let mut softest = 0;
+        let mut j = 1;
+        while j + 1 < self.count {
+            if self.shaft[j].stiffness < self.shaft[softest].stiffness {
+                softest = j;
+            }
+            j += 1;
+        }
+        let mut before = [1.0; 2];
+        let mut behind = [1.0; 2];
+        let mut j = 0;
+        while j + 1 < self.count {
+            let Shaft { efficiency, back_efficiency, .. } = self.shaft[j];
+            let side = if j <= softest { &mut before } else { &mut behind };
+            *side = [side[0] * efficiency, side[1] * back_efficiency];
+            j += 1;
+        }
+        let end = if self.count > 1 { &mut behind } else { &mut before };
+        *end = [end[0] * self.ending[0] * self.waiting[0], end[1] * self.ending[1] * self.waiting[1]];
+        Losses { before, behind }
     }
 
     /// A gear that loses more while the load drives it, such as a worm: efficiency with the motor driving, then with
@@ -243,25 +293,26 @@ impl Chain {
     }
 
     /// Adds a referred shaft: a new mass, or a spring in series where the present mass is empty.
-    pub(super) const fn link(mut self, stiffness: f64, damping: f64) -> Self {
-        if self.inertia[self.count - 1] == 0.0 {
-            let last = &mut self.shaft[self.count - 2];
+    pub(super) const fn link(self, stiffness: f64, damping: f64) -> Self {
+        let mut this = self.close();
+        if this.inertia[this.count - 1] == 0.0 {
+            let last = &mut this.shaft[this.count - 2];
             let joined = super::refer::series(last.stiffness, stiffness);
             // Both carry one torque: the losses d (tau/k)^2 of each add up.
             let (a, b) = (joined / last.stiffness, joined / stiffness);
             last.damping = last.damping * a * a + damping * b * b;
             last.stiffness = joined;
-            last.gap += self.gap;
-        } else if self.count == CAPACITY {
-            return self.refuse(Error::TooManyMasses);
+            last.gap += this.gap;
+        } else if this.count == CAPACITY {
+            return this.refuse(Error::TooManyMasses);
         } else {
-            let [efficiency, back_efficiency] = self.waiting;
-            self.shaft[self.count - 1] = Shaft { stiffness, damping, gap: self.gap, efficiency, back_efficiency };
-            self.count += 1;
+            let [efficiency, back_efficiency] = this.waiting;
+            this.shaft[this.count - 1] = Shaft { stiffness, damping, gap: this.gap, efficiency, back_efficiency };
+            this.count += 1;
         }
-        self.gap = 0.0;
-        self.waiting = [1.0; 2];
-        self
+        this.gap = 0.0;
+        this.waiting = [1.0; 2];
+        this
     }
 
     /// Referred inertias (kg m2), the motor first.

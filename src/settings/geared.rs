@@ -4,15 +4,17 @@ use super::convert::{fixed, get, or_stop};
 use super::format::ANGLE_PER_RADIAN;
 use super::{Bases, Error};
 use crate::number::{Fixed, INNOVATION_RANGE, STICTION_GAIN};
-use crate::observer::GearedConfig;
+use crate::observer::{GearedConfig, LoadGearConfig};
 
 const EFFICIENCY: &str = "the efficiency of the gear must be above 0 and at most 1";
 const MOTOR: &str = "the inertia in front of the gear and the period must be positive and finite";
+const LOAD: &str = "the inertia behind the shaft and the period must be positive and finite";
 const PLAY: &str =
     "the deadband of a sticking gear must not be negative, and at most 5.6 degrees (0.098 rad) in fixed point";
 const LIGHT: &str =
     "the inertia in front of the gear is too light for the bases at this rate: raise the rate or the base of the speed";
 const FIXED: &str = "the efficiency of the gear must be above 0.62 in fixed point";
+const LOAD_FIXED: &str = "the efficiency of the gear must be above 0.5 in fixed point, driven above 0.67";
 
 /// A gear with losses, as an observer has to know it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +61,37 @@ impl Gear {
     }
 }
 
+/// A gear with losses between the shaft and the load, as an observer has to know it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LoadGear {
+    /// Efficiency while the motor drives, above 0 and at most 1.
+    pub efficiency: f64,
+    /// Efficiency while the load drives, above 0 and at most 1.
+    pub back_efficiency: f64,
+    /// Inertia on the load side of the shaft (kg m2).
+    pub inertia: f64,
+}
+
+impl LoadGear {
+    /// Friction per shaft torque while the motor and while the load drives, and the stiction gain (N m s/rad).
+    const fn losses(&self, period: f64) -> Result<[f64; 3], Error> {
+        let LoadGear { efficiency, back_efficiency, inertia } = *self;
+        if !(efficiency > 0.0 && efficiency <= 1.0 && back_efficiency > 0.0 && back_efficiency <= 1.0) {
+            return Err(Error::Value(EFFICIENCY));
+        }
+        let stiction_gain = 0.5 * inertia / period;
+        if !(stiction_gain as f32 > 0.0 && (stiction_gain as f32).is_finite() && period > 0.0) {
+            return Err(Error::Value(LOAD));
+        }
+        let driven = 1.0 / back_efficiency - 1.0;
+        if !(driven as f32).is_finite() {
+            return Err(Error::Value(EFFICIENCY));
+        }
+        Ok([1.0 - efficiency, driven, stiction_gain])
+    }
+}
+
 macro_rules! float {
     ($float:ident) => {
         impl<C: Copy> GearedConfig<$float, C> {
@@ -82,6 +115,31 @@ macro_rules! float {
                     friction: friction as $float,
                     stiction_gain: stiction_gain as $float,
                     deadband: deadband as $float,
+                })
+            }
+        }
+
+        impl<C: Copy> LoadGearConfig<$float, C> {
+            /// An observer's constants in front of a gear, in ticks of this period (s).
+            ///
+            /// # Panics
+            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
+            /// returns.
+            pub const fn new(observer: C, gear: &LoadGear, period: f64, bases: Bases) -> Self {
+                or_stop!(Self::try_new(observer, gear, period, bases))
+            }
+
+            /// An observer's constants in front of a gear, in ticks of this period (s).
+            ///
+            /// # Errors
+            /// [`Error::Value`] for a figure of the gear that is out of its range.
+            pub const fn try_new(observer: C, gear: &LoadGear, period: f64, _: Bases) -> Result<Self, Error> {
+                let [driving, driven, stiction_gain] = get!(gear.losses(period));
+                Ok(LoadGearConfig {
+                    observer,
+                    driving: driving as $float,
+                    driven: driven as $float,
+                    stiction_gain: stiction_gain as $float,
                 })
             }
         }
@@ -113,6 +171,28 @@ impl<C: Copy> GearedConfig<Fixed, C> {
             return Err(Error::Value(LIGHT));
         }
         Ok(GearedConfig { observer, friction, stiction_gain: (), deadband: Fixed::from_bits(deadband as i32) })
+    }
+}
+
+impl<C: Copy> LoadGearConfig<Fixed, C> {
+    /// An observer's constants in front of a gear, in ticks of this period (s).
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
+    pub const fn new(observer: C, gear: &LoadGear, period: f64, bases: Bases) -> Self {
+        or_stop!(Self::try_new(observer, gear, period, bases))
+    }
+
+    /// An observer's constants in front of a gear, in ticks of this period (s).
+    ///
+    /// # Errors
+    /// [`Error::Value`] for a figure of the gear that is out of its range; [`Error::Coefficient`] for losses above half
+    /// of the shaft torque.
+    pub const fn try_new(observer: C, gear: &LoadGear, period: f64, bases: Bases) -> Result<Self, Error> {
+        get!(bases.check());
+        let [driving, driven, _] = get!(gear.losses(period));
+        let [driving, driven] = get!(fixed([driving, driven], LOAD_FIXED));
+        Ok(LoadGearConfig { observer, driving, driven, stiction_gain: () })
     }
 }
 

@@ -7,7 +7,7 @@
 //! | term | meaning |
 //! |---|---|
 //! | tuned | a corner or a radius of poles is swept over a run; the best for the shaft torque is kept |
-//! | drawn | on machines out of the tolerances, others than those that the corner was swept on |
+//! | drawn | on machines drawn from within the tolerances, others than those that the corner was swept on |
 //! | wins | has an error that is smaller by 1 % than that of every observer of the library at no more instructions |
 
 mod comparison;

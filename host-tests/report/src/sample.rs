@@ -65,9 +65,9 @@ pub fn samples_table(samples: &[Sample]) -> (String, Table) {
     }
     let text = samples.first().map_or_else(String::new, |sample| {
         format!(
-            "A sample: draws 0 to {} of seed {} out of the tolerances of machine, motor, encoder and inverter, on the \
-             host with the bits of the firmware. Rms errors, of rated torque and rated speed; the nominal ones are of \
-             the same run. `cargo driveline campaign` takes more draws.",
+            "A sample: machines 0 to {} of seed {}, drawn from within the tolerances of machine, motor, encoder and \
+             inverter, on the host with the bits of the firmware. Rms errors, of rated torque and rated speed; the \
+             nominal ones are of the same run. `cargo driveline campaign` draws more machines.",
             sample.draws.saturating_sub(1),
             sample.seed
         )

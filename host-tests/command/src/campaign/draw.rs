@@ -1,4 +1,4 @@
-//! One machine out of the tolerances.
+//! One machine drawn from within the tolerances.
 
 use core::f64::consts::TAU;
 
@@ -11,7 +11,7 @@ use driveline_closed_loop::lockstep::Imperfections;
 /// Periods of the cogging torque on a turn of the motor: slots of a machine of three pole pairs and 12 slots.
 const COGGING_ORDER: f64 = 12.0;
 
-/// One machine out of the tolerances.
+/// One machine drawn from within the tolerances.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Draw {
     /// Its number.

@@ -3,11 +3,13 @@
 use driveline::design::SpeedLoopDesign;
 use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::governor::{SpeedLoop, SpeedLoopConfig};
+use driveline::machine::Losses;
 use driveline::observer::{
-    GearedConfig, GearedObserver, Observer, RigidConfig, RigidObserver, TwoMassConfig, TwoMassObserver,
+    GearedConfig, GearedObserver, LoadGearConfig, LoadGearObserver, Observer, RigidConfig, RigidObserver,
+    TwoMassConfig, TwoMassObserver,
 };
 use driveline::sample::Sample;
-use driveline::settings::{Bases, Gear, SpeedLoopSettings};
+use driveline::settings::{Bases, Gear, LoadGear, SpeedLoopSettings};
 use driveline_firmware::scene::{Input, Output, Scene};
 use driveline_solver::plant::train::{Coordinate, Link, RigidGear, Source, Train};
 use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft, Start};
@@ -78,9 +80,6 @@ impl FileCase {
         let refused = |error: String| format!("no controller can be designed: {error}");
         let damped = machine.with_dampers().map_err(refused)?;
         let two = damped.two_masses().ok_or("a campaign needs a machine with a shaft; this one is rigid")?;
-        if let Some(label) = machine.losses_of_no_chain() {
-            return Err(format!("the losses of `{label}` need a shaft behind it; leave it out of a copy of the file"));
-        }
         let designs = Designs::of(&damped, &two).map_err(|error| refused(error.to_string()))?;
         let cycle = machine.cycle(two.gravity_torque);
         let ramp = machine.limits.speed / designs.ramp;
@@ -196,23 +195,26 @@ impl FileCase {
         let rating = self.machine.rating();
         let limits = Limits::<f32>::try_new(&rating.screening(encoder, rate), Bases::SI).map_err(sentence)?;
         let governor = governor(speed_loop, rating.torque_limit, *ramp)?;
-        let gear = Gear {
-            efficiency: self.machine.chain.efficiency(),
-            inertia: two.motor_inertia,
-            deadband: 8.0 * encoder.resolution().map_err(|error| error.to_string())?,
-        };
+        let Losses { before: [efficiency, _], behind: [driving, driven] } = self.machine.chain.losses();
+        let deadband = 8.0 * encoder.resolution().map_err(|error| error.to_string())?;
+        let gear = Gear { efficiency, inertia: two.motor_inertia, deadband };
+        let behind = LoadGear { efficiency: driving, back_efficiency: driven, inertia: two.load_inertia };
         let period = 1.0 / f64::from(self.rate());
         match observer {
             FileObserver::TwoMass => {
                 let config = TwoMassConfig::<f32>::try_new(two_masses, Bases::SI).map_err(sentence)?;
                 let observer = GearedConfig::<f32, _>::try_new(config, &gear, period, Bases::SI).map_err(sentence)?;
-                Ok(Observed::<GearedObserver<TwoMassObserver<f32>>>::boxed(limits, observer, governor))
+                let observer =
+                    LoadGearConfig::<f32, _>::try_new(observer, &behind, period, Bases::SI).map_err(sentence)?;
+                Ok(Observed::<Geared<TwoMassObserver<f32>>>::boxed(limits, observer, governor))
             }
             FileObserver::Rigid => {
                 let share = two.load_inertia / two.total_inertia();
                 let config = RigidConfig::<f32>::try_new(rigid, share, Bases::SI).map_err(sentence)?;
                 let observer = GearedConfig::<f32, _>::try_new(config, &gear, period, Bases::SI).map_err(sentence)?;
-                Ok(Observed::<GearedObserver<RigidObserver<f32>>>::boxed(limits, observer, governor))
+                let observer =
+                    LoadGearConfig::<f32, _>::try_new(observer, &behind, period, Bases::SI).map_err(sentence)?;
+                Ok(Observed::<Geared<RigidObserver<f32>>>::boxed(limits, observer, governor))
             }
         }
     }
@@ -273,6 +275,9 @@ fn governor(design: &SpeedLoopDesign, torque_limit: f64, ramp: f64) -> Result<Sp
     let settings = SpeedLoopSettings { torque_limit, ramp };
     SpeedLoopConfig::<f32>::try_new(design, settings, Bases::SI).map_err(|error| error.to_string())
 }
+
+/// An observer between gears with losses.
+type Geared<O> = LoadGearObserver<GearedObserver<O>>;
 
 /// A drive with an observer and a speed loop.
 type Driven<O> = Drive<f32, O, (), SpeedLoop<f32>>;

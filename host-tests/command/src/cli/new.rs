@@ -147,6 +147,7 @@ impl New {
             ("src/lib.rs", "lib.rs"),
             ("src/machine.rs", "machine.rs"),
             ("src/main.rs", "new/main.rs"),
+            ("src/simulated.rs", "new/simulated.rs"),
             ("tests/closed_loop.rs", "new/closed_loop.rs"),
         ]
         .map(|(path, template)| (path.to_owned(), fill(template, &values).into_bytes()))

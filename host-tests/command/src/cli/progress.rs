@@ -1,11 +1,12 @@
 //! Progress of long work, on standard error: a bar, or a line now and then where that is no terminal.
 
+use std::fmt::Write;
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 
 /// Time between two lines, and before the first: short work is silent.
 const BETWEEN: Duration = Duration::from_secs(5);
@@ -24,8 +25,12 @@ impl Progress {
     /// # Panics
     /// Never: the template is a constant that the tests show.
     pub fn of(steps: u64) -> Self {
-        let style = ProgressStyle::with_template("{bar:32} {pos}/{len}  {elapsed}, {eta} left  {msg}")
-            .expect("the template of the progress bar is well-formed");
+        let style = ProgressStyle::with_template("{bar:32} {pos}/{len}  {elapsed}{left}  {msg}")
+            .expect("the template of the progress bar is well-formed")
+            .with_key("left", |state: &ProgressState, to: &mut dyn Write| {
+                // nothing to estimate from before the first step is done; a line has no error to return
+                let _ = to.write_str(&left(state.pos(), state.eta()));
+            });
         Self::moving(ProgressBar::new(steps).with_style(style))
     }
 
@@ -98,6 +103,11 @@ impl Progress {
     }
 }
 
+/// Remaining time in words; empty before the first step is done.
+fn left(done: u64, eta: Duration) -> String {
+    if done == 0 { String::new() } else { format!(", {} left", HumanDuration(eta)) }
+}
+
 impl Drop for Progress {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
@@ -106,7 +116,16 @@ impl Drop for Progress {
 
 #[cfg(test)]
 mod tests {
-    use super::Progress;
+    use std::time::Duration;
+
+    use super::{Progress, left};
+
+    /// The bar's rate is unknown until a step is done: its estimate is then 0 s.
+    #[test]
+    fn no_time_is_estimated_before_the_first_step_is_done() {
+        assert_eq!(left(0, Duration::ZERO), "");
+        assert_eq!(left(1, Duration::from_secs(120)), ", 2 minutes left");
+    }
 
     #[test]
     fn a_bar_counts() {

@@ -11,7 +11,8 @@ use std::path::{Path, PathBuf};
 use clap::{ArgGroup, Args};
 use driveline::configure::Rating;
 use driveline::design::{Encoder, Rate};
-use driveline::settings::Gear;
+use driveline::machine::Losses;
+use driveline::settings::{Gear, LoadGear};
 use serde_json::json;
 
 use self::fluctuation::FluctuationOptions;
@@ -244,22 +245,25 @@ impl Replay {
         let (_, encoder, disturbance) = machine.tuning();
         let encoder = wheel.map_or(encoder, |wheel| Encoder::counts(u32::MAX).jitter(wheel.in_a_tick(), 1.0));
         let rate = Rate::every(recording.period);
-        let (design, inertia) = match machine.two_masses() {
+        let (design, inertia, load_inertia) = match machine.two_masses() {
             Some(two) => {
-                (Design::TwoMass(two.try_observer(rate, encoder, disturbance).map_err(refused)?), two.motor_inertia)
+                let design = two.try_observer(rate, encoder, disturbance).map_err(refused)?;
+                (Design::TwoMass(design), two.motor_inertia, two.load_inertia)
             }
             None => {
                 let rigid = machine.rigid().map_err(|error| refused(error.into()))?;
                 // without a shaft there is no load behind one
-                (Design::Rigid(rigid.try_observer(rate, encoder, disturbance).map_err(refused)?, 0.0), rigid.inertia)
+                let design = rigid.try_observer(rate, encoder, disturbance).map_err(refused)?;
+                (Design::Rigid(design, 0.0), rigid.inertia, rigid.inertia)
             }
         };
-        let efficiency = machine.chain.efficiency();
-        let gear = if efficiency < 1.0 {
+        let gear = if machine.chain.efficiency() < 1.0 || machine.chain.back_efficiency() < 1.0 {
             // the gear sticks within a few counts, as in a campaign
             let count = encoder.resolution().map_err(refused)?;
             let deadband = 8.0 * wheel.map_or(count, |wheel| 12_f64.sqrt() * wheel.in_a_tick());
-            Some((Gear { efficiency, inertia, deadband }, recording.period))
+            let Losses { before: [efficiency, _], behind: [driving, driven] } = machine.chain.losses();
+            let behind = LoadGear { efficiency: driving, back_efficiency: driven, inertia: load_inertia };
+            Some((Gear { efficiency, inertia, deadband }, behind, recording.period))
         } else {
             None
         };

@@ -13,15 +13,15 @@ pub(super) struct Referred {
 }
 
 /// The masses and shafts of a machine. The losses of a gear, a worm or a planetary set belong to the shaft behind it;
-/// where a shaft ends in it, to that shaft; those of a belt to the belt. Where neither is there, the gear is part of
-/// the last mass, which it divides. A rope only pulls; the weight of what is
-/// lifted pulls backwards on the last mass of its chain or branch.
+/// where a shaft ends in it, to that shaft; those of a belt to the belt. Where no shaft follows, the gear is part of the
+/// last mass, which it divides. A rope only pulls; the weight of what is lifted pulls backwards on the last mass of its
+/// chain or branch.
 ///
 /// # Errors
-/// The label of an element whose losses no shaft can carry.
+/// The label of an element whose losses no shaft can carry: there is none.
 pub(super) fn referred(machine: &MachineFile) -> Result<Referred, String> {
     let (masses, shafts) = machine.names();
-    let Carried { rope, efficiency, rigid, without_shaft } = machine.carried();
+    let Carried { rope, losses, rigid, without_shaft } = machine.carried();
     if let Some(label) = without_shaft {
         return Err(label);
     }
@@ -36,11 +36,12 @@ pub(super) fn referred(machine: &MachineFile) -> Result<Referred, String> {
     };
     let link = |(s, joint): (usize, driveline::machine::Joint)| {
         let shaft = joint.shaft;
+        let [ahead, back] = losses[s].front;
         let bare = Link::shaft(joint.from, joint.to, shaft.stiffness)
             .damping(shaft.damping)
             .gap(shaft.gap)
-            .efficiency(efficiency[s][0])
-            .back_efficiency(efficiency[s][1]);
+            .efficiency(ahead)
+            .back_efficiency(back);
         if rope[s] { bare.rope() } else { bare }
     };
     let mut coordinates: Vec<(String, Coordinate)> =
@@ -55,11 +56,32 @@ pub(super) fn referred(machine: &MachineFile) -> Result<Referred, String> {
 }
 
 impl MachineFile {
-    /// Of each shaft: whether it is a rope, and the efficiencies that it carries while the motor drives and while the
-    /// load does.
+    /// Of each shaft: whether it is a rope, and the efficiencies before it, while the motor drives and while the load
+    /// does. Behind the last shaft stand [rigid gears](Self::rigid_gears).
     pub fn ropes_and_efficiencies(&self) -> (Vec<bool>, Vec<[f64; 2]>) {
         let carried = self.carried();
-        (carried.rope, carried.efficiency)
+        (carried.rope, carried.losses.iter().map(|losses| losses.front).collect())
+    }
+
+    /// Of each shaft of the chain: whether it is a rope, and the losses of the gears at its ends, for a shaft that loses
+    /// at one end alone.
+    pub fn ropes_and_losses(&self) -> (Vec<bool>, Vec<ShaftLosses>) {
+        let mut carried = self.carried();
+        for s in 0..self.chain.shafts().len() {
+            let ShaftLosses { front, end } = carried.losses[s];
+            if front == ShaftLosses::NONE.front || end == ShaftLosses::NONE.end {
+                continue;
+            }
+            match s.checked_sub(1).map(|before| &mut carried.losses[before]) {
+                // a link has the losses of one end
+                Some(before) if before.front == ShaftLosses::NONE.front => {
+                    before.end = front;
+                    carried.losses[s].front = ShaftLosses::NONE.front;
+                }
+                _ => carried.losses[s] = ShaftLosses { front: both(front, end), end: ShaftLosses::NONE.end },
+            }
+        }
+        (carried.rope, carried.losses)
     }
 
     /// The gears with no shaft behind them, each with the mass that it divides.
@@ -77,7 +99,7 @@ impl MachineFile {
         let shafts = self.joints().len();
         let mut carried = Carried {
             rope: vec![false; shafts],
-            efficiency: vec![[1.0; 2]; shafts],
+            losses: vec![ShaftLosses::NONE; shafts],
             rigid: Vec::new(),
             without_shaft: None,
         };
@@ -183,11 +205,33 @@ impl MachineFile {
     }
 }
 
+/// Efficiencies of the gears at the ends of a shaft, each while the motor's side drives and while it is driven.
+///
+/// The losses of a gear, a worm or a planetary set belong to the shaft behind it, those of a belt to the belt. Where a
+/// shaft ends in the gear and another one follows, they belong to that shaft. Where none follows, they act at the end of
+/// the last shaft, which then has its own torque in front of them. A shaft with losses at both ends passes those of its
+/// front to the end of the shaft before; where that has some, or is none, both act at the front.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShaftLosses {
+    /// Between the mass before and the shaft.
+    pub front: [f64; 2],
+    /// Between the shaft and the mass behind.
+    pub end: [f64; 2],
+}
+
+impl ShaftLosses {
+    /// None at either end.
+    pub const NONE: Self = Self { front: [1.0; 2], end: [1.0; 2] };
+}
+
+fn both(one: [f64; 2], other: [f64; 2]) -> [f64; 2] {
+    [one[0] * other[0], one[1] * other[1]]
+}
+
 /// What each shaft carries beside its torque.
 struct Carried {
     rope: Vec<bool>,
-    /// While the motor's side drives, and while it is driven.
-    efficiency: Vec<[f64; 2]>,
+    losses: Vec<ShaftLosses>,
     /// Gears with no shaft behind them, and their masses.
     rigid: Vec<(usize, RigidGear)>,
     /// An element whose losses nothing can carry.
@@ -202,7 +246,7 @@ impl Carried {
         let mut before = 0.0;
         for (part, Station { chain, .. }) in elements.iter().zip(stations(elements)) {
             let last = chain.masses().len() - 1;
-            let behind = if last > 0 && before == 0.0 { last - 1 } else { last };
+            let ends_in_shaft = last > 0 && before == 0.0;
             before = chain.masses()[last];
             let (shaft, losses) = match part.element {
                 Element::Rope { .. } => {
@@ -210,23 +254,29 @@ impl Carried {
                     rope.into_iter().for_each(|rope| *rope = true);
                     continue;
                 }
-                Element::Planetary { efficiency, back_efficiency, .. } if efficiency != back_efficiency => {
-                    (last, [efficiency, back_efficiency])
-                }
-                Element::Gear { efficiency, back_efficiency, .. }
-                | Element::Planetary { efficiency, back_efficiency, .. }
-                | Element::Worm { efficiency, back_efficiency, .. } => (behind, [efficiency, back_efficiency]),
+                Element::Planetary { efficiency, back_efficiency, .. }
+                | Element::Gear { efficiency, back_efficiency, .. }
+                | Element::Worm { efficiency, back_efficiency, .. } => (last, [efficiency, back_efficiency]),
                 Element::Belt { efficiency, .. } => (last.saturating_sub(1), [efficiency; 2]),
                 _ => continue,
             };
-            match at(shaft).and_then(|shaft| self.efficiency.get_mut(shaft)) {
-                Some(known) => *known = [known[0] * losses[0], known[1] * losses[1]],
-                None if losses == [1.0; 2] => {}
-                None if last > 0 && before < whole && self.rigid.iter().all(|(mass, _)| *mass != on(last)) => {
+            if losses == [1.0; 2] {
+                continue;
+            }
+            let is_belt = matches!(part.element, Element::Belt { .. });
+            let behind = at(shaft).and_then(|shaft| self.losses.get(shaft).map(|_| shaft));
+            let ending = last.checked_sub(1).and_then(at);
+            match (behind, ending) {
+                (Some(_), Some(own)) if ends_in_shaft && !is_belt => {
+                    self.losses[own].front = both(self.losses[own].front, losses);
+                }
+                (Some(shaft), _) => self.losses[shaft].front = both(self.losses[shaft].front, losses),
+                (None, Some(own)) if before < whole && self.rigid.iter().all(|(mass, _)| *mass != on(last)) => {
+                    self.losses[own].end = both(self.losses[own].end, losses);
                     let [efficiency, back_efficiency] = losses;
                     self.rigid.push((on(last), RigidGear { front: before, efficiency, back_efficiency }));
                 }
-                None => self.without_shaft = Some(part.label.clone()),
+                (None, _) => self.without_shaft = Some(part.label.clone()),
             }
         }
     }

@@ -209,8 +209,8 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
         let referred = referred(&machine).map_err(|label| {
             let element = labels.iter().position(|one| *one == label);
             let place = element.and_then(|at| element_places.get(at)).cloned().unwrap_or(0..0);
-            let expected = "a shaft, belt or rope behind it that carries its losses, or an efficiency of 1";
-            Diagnostic::at(source, place, label, "no shaft behind it", expected)
+            let expected = "a shaft, belt or rope beside it that carries its losses, or an efficiency of 1";
+            Diagnostic::at(source, place, label, "no shaft before or behind it", expected)
         })?;
         for (place, _) in root.tables_if("damper", "damper")? {
             damper_places.push(place);

@@ -5,10 +5,11 @@ use driveline::drive::{Config, Drive, Limits};
 use driveline::fault::Faults;
 use driveline::number::{Fixed, Number};
 use driveline::observer::{
-    GearedConfig, GearedObserver, Observer, RigidConfig, RigidObserver, TwoMassConfig, TwoMassObserver,
+    GearedConfig, GearedObserver, LoadGearConfig, LoadGearObserver, Observer, RigidConfig, RigidObserver,
+    TwoMassConfig, TwoMassObserver,
 };
 use driveline::sample::Sample;
-use driveline::settings::{Bases, Error, Gear, Screening};
+use driveline::settings::{Bases, Error, Gear, LoadGear, Screening};
 
 use super::signals::Signals;
 
@@ -73,15 +74,15 @@ const UNIT: f64 = 268_435_456.0;
 /// Doublings of the bases of torque and speed, together.
 const DOUBLINGS: i32 = 12;
 
-/// Runs the observer over a recording, in `f32` and in fixed point, behind a gear with losses and the time between
-/// samples (s) where there is one. `tick` counts.
+/// Runs the observer over a recording, in `f32` and in fixed point, between gears with losses and with the time between
+/// samples (s) where there are some. `tick` counts.
 ///
 /// # Errors
 /// The library's sentence, where constants do not fit.
 pub fn replay(
     signals: Signals,
     design: &Design,
-    gear: Option<&(Gear, f64)>,
+    gear: Option<&(Gear, LoadGear, f64)>,
     screening: &Screening,
     most: [f64; 2],
     mut tick: impl FnMut(),
@@ -93,9 +94,11 @@ pub fn replay(
         ($number:ty, $observer:ident, $config:expr, $bases:expr, $limits:expr, $units:expr) => {
             match gear {
                 None => run::<$number, $observer<$number>>(&signals, $config, $limits, $units, &mut tick),
-                Some((gear, period)) => {
+                Some((gear, behind, period)) => {
                     let config = GearedConfig::<$number, _>::try_new($config, gear, *period, $bases)?;
-                    run::<$number, GearedObserver<$observer<$number>>>(&signals, config, $limits, $units, &mut tick)
+                    let config = LoadGearConfig::<$number, _>::try_new(config, behind, *period, $bases)?;
+                    type Geared = LoadGearObserver<GearedObserver<$observer<$number>>>;
+                    run::<$number, Geared>(&signals, config, $limits, $units, &mut tick)
                 }
             }
         };

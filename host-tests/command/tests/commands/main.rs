@@ -1,5 +1,6 @@
 //! The subcommands as a user meets them, the files that they read and the pages that they write.
 
+mod answers;
 mod balance;
 mod cli_emit;
 mod critical;

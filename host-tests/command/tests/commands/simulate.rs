@@ -360,7 +360,7 @@ fn losses_without_a_shaft_are_refused_by_name() {
         [[element]]\nkind = \"rotor\"\ninertia = 2.0\n\
         [run]\ntime = 0.2\nstep = 1e-3\n";
     let said = parse_train("stiff.toml", &format!("{text}{}", settings())).unwrap_err().to_string();
-    assert!(said.contains("gearbox") && said.contains("no shaft behind it"), "{said}");
+    assert!(said.contains("gearbox") && said.contains("no shaft before or behind it"), "{said}");
 }
 
 /// A file of one crank with its run, and what is put in for the mechanism and the torque over its stroke.

@@ -19,8 +19,8 @@ use driveline_report::{SAMPLES, Sample, Variant, samples_table, variants_table};
 
 /// Run a scene's variants in QEMU, in closed loop with the full solver, and report their errors and cost.
 ///
-/// A first table has the errors of ten machines out of the tolerances beside the nominal ones, where the scene has
-/// tolerances.
+/// A first table has the errors of ten machines drawn from within the tolerances beside the nominal ones, where the
+/// scene has tolerances.
 ///
 /// Installs what is missing (as `setup` does), builds the firmware of the variants, runs it, prints a table and writes
 /// a page with plots that opens in any browser. Without --all or --variants these are the design's choice in `f32` and

@@ -37,7 +37,7 @@ pub struct Observer {
     pub library: bool,
     /// On the scene's own runs.
     pub own: Accuracy,
-    /// On runs of machines out of the tolerances, other ones than those that it was tuned on.
+    /// On runs of machines drawn from within the tolerances, other ones than those that it was tuned on.
     pub drawn: Accuracy,
     /// Cost by core.
     pub costs: Vec<Cost>,

@@ -146,14 +146,6 @@ fn a_machine_file_has_campaigns() {
     );
     let refused = campaign(folder.path(), &["axis.toml", "--drive", "f32/rigid/10000"]);
     assert!(String::from_utf8_lossy(&refused.stderr).contains("expected two-mass, rigid or plain"));
-    // a worm behind the last mass, whose losses no shaft carries
-    let worm =
-        "[[element]]\nkind = \"worm\"\nlabel = \"drive\"\nratio = 2.0\nefficiency = 0.8\nback_efficiency = 0.7\n";
-    let hoist = include_str!("../../../command/machines/hoist.toml");
-    let [(head, _), (_, tail)] = ["[[element]]\nkind = \"gear\"", "[encoder]"].map(|at| hoist.split_once(at).unwrap());
-    fs::write(folder.path().join("axis.toml"), format!("{head}{worm}\n[encoder]{tail}")).unwrap();
-    let refused = campaign(folder.path(), &["axis.toml"]);
-    assert!(String::from_utf8_lossy(&refused.stderr).contains("the losses of `drive` need a shaft behind it"));
 }
 
 #[test]

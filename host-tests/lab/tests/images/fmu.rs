@@ -165,7 +165,7 @@ fn on_the_host(mut plant: Plant, weight: f64) -> Vec<[f64; 13]> {
         let [torque, motor_speed, shaft_torque, load_speed, load_torque] = estimates.map(f64::from);
         let angle = plant.motor_angle();
         let encoder = (angle / TAU * 8192.0).floor() / 8192.0 * TAU;
-        let [shaft, rope] = [0, 1].map(|shaft| plant.shaft_torque(shaft));
+        let [shaft, rope] = [0, 1].map(|shaft| plant.torque_behind_gear(shaft));
         [
             torque,
             motor_speed,

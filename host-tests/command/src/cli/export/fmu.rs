@@ -62,7 +62,7 @@ pub fn is_a_plant(machine: &MachineFile, source: &str) -> Result<(), Failure> {
         return refused("it has `viscous`, which the plant does not have".to_owned());
     }
     match machine.losses_of_no_chain() {
-        Some(label) => refused(format!("the losses of `{label}` need a shaft behind it")),
+        Some(label) => refused(format!("the losses of `{label}` need a shaft before or behind it")),
         None => Ok(()),
     }
 }

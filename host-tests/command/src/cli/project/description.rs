@@ -3,14 +3,14 @@
 use std::f64::consts::TAU;
 
 use driveline::design::{Actuator, Spread, Tolerance};
-use driveline::machine::Damper;
+use driveline::machine::{Damper, Losses};
 use serde::Serialize;
 
 use super::{Part, PartOptions, Source};
 use crate::cli::Failure;
 use crate::cli::controller::Plan;
 use crate::cli::emit::{dampers, encoder, has_tuning, tuning, words, written};
-use crate::machine_file::{DamperRing, MachineFile};
+use crate::machine_file::{DamperRing, MachineFile, ShaftLosses};
 
 /// The number of a drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,7 +49,10 @@ pub struct Project {
     words: String,
     chain: String,
     encoder: String,
+    /// Largest torque of the motor (N m).
     torque: String,
+    /// Its rated torque (N m).
+    rated_torque: String,
     speed: String,
     /// Ticks a second.
     pub rate_hz: u32,
@@ -78,6 +81,12 @@ pub struct Project {
     nodes: Vec<Node>,
     /// Index of the chain's last mass.
     load: usize,
+    /// Index of the softest shaft, whose torque the drive estimates.
+    softest: usize,
+    /// Viscous damping before and behind it (N m s/rad).
+    friction: [String; 2],
+    /// Load torque that a run adds at rated speed (N m).
+    load_step: String,
     plant: TwoMasses,
     dependency_note: &'static str,
     driveline: String,
@@ -100,10 +109,12 @@ struct Node {
     inertia: String,
     /// Viscous damping against the ground; empty for none.
     viscous: String,
-    /// Of the gear between it and the next shaft; empty for 1.
+    /// Of the gear between it and the next shaft, or between the shaft before and it; empty for 1.
     efficiency: String,
     /// With the load driving, where it differs.
     back_efficiency: String,
+    /// Whether that gear lies between the shaft before and it.
+    ends: bool,
     kind: &'static str,
     stiffness: String,
     damping: String,
@@ -121,8 +132,15 @@ struct TwoMasses {
     load_inertia: String,
     stiffness: String,
     damping: String,
+    /// Losses of the gears before the shaft, in shaft torques: the motor driving, the load driving.
+    before: [String; 2],
+    /// The same behind the shaft.
+    behind: [String; 2],
     steps: u32,
+    /// When its load comes on (s).
     seconds: u32,
+    /// When it ends (s).
+    end: u32,
 }
 
 impl Project {
@@ -150,7 +168,20 @@ impl Project {
         }
         let float = |value: f64| format!("{value:?}");
         let weight = machine.chain.gravity_torque();
+        let shafts = machine.chain.shafts();
+        let least = |a: usize, b: usize| if shafts[b].stiffness < shafts[a].stiffness { b } else { a };
+        let softest = (1..shafts.len()).fold(0, least);
+        let viscous = &machine.viscous()[..machine.chain.masses().len()];
+        let Losses { before, behind } = machine.chain.losses();
+        // a tenth of the largest torque remains for the speed loop
+        let left = 0.9 * machine.limits.torque - viscous.iter().sum::<f64>() * machine.limits.speed;
+        let load_step = (left * before[0] * behind[0] - weight).min(0.5 * machine.limits.rated_torque);
+        let bandwidth =
+            plan.as_ref().ok().and_then(|plan| plan.speed_loop.as_ref()).map(|speed_loop| speed_loop.bandwidth);
+        // ten time constants of the speed loop
+        let settling = (10.0 / bandwidth.unwrap_or(10.0)).max(1.0);
         let seconds = 2.0 * machine.limits.speed / machine.limits.torque * machine.chain.total_inertia();
+        let loaded = 2 + (seconds.max(2.0) + settling) as u32;
         let (actuator, tolerance) = (machine.actuator(), tolerance(machine));
         let period = 1.0 / f64::from(machine.control.rate_hz);
         Ok(Project {
@@ -164,6 +195,7 @@ impl Project {
             chain: written(&machine.elements, "        "),
             encoder: encoder(machine),
             torque: float(machine.limits.torque),
+            rated_torque: float(machine.limits.rated_torque),
             speed: float(machine.limits.speed),
             rate_hz: machine.control.rate_hz,
             torque_accuracy: float(machine.disturbance.torque_accuracy),
@@ -195,14 +227,20 @@ impl Project {
             weight: float(weight),
             nodes: nodes(machine, weight),
             load: machine.chain.masses().len() - 1,
+            softest,
+            friction: [&viscous[..=softest], &viscous[softest + 1..]].map(|part| float(part.iter().sum())),
+            load_step: float(load_step.max(0.0)),
             plant: TwoMasses {
                 motor_inertia: float(two.motor_inertia),
                 load_inertia: float(two.load_inertia),
                 stiffness: float(two.stiffness),
                 damping: float(two.damping),
+                before: [1.0 / before[0] - 1.0, 1.0 - before[1]].map(float),
+                behind: [1.0 - behind[0], 1.0 / behind[1] - 1.0].map(float),
                 steps: 1 + (40.0 / TAU * period * two.resonance()) as u32,
                 // the ramp takes two seconds, or half of the largest torque (`Rating::ramp`)
-                seconds: 2 + seconds.max(2.0) as u32,
+                seconds: loaded,
+                end: loaded + 2 + (2.0 * settling).ceil() as u32,
             },
             dependency_note: Source::find().note(),
             driveline: Source::find().dependency(""),
@@ -278,12 +316,15 @@ fn observers(machine: &MachineFile, plan: &Plan) -> Vec<&'static str> {
         Some("semi-implicit") => "SemiImplicitObserver",
         _ => "TwoMassObserver",
     };
-    if machine.chain.efficiency() < 1.0 { vec!["GearedObserver", selected] } else { vec![selected] }
+    let Losses { before, behind } = machine.chain.losses();
+    let gear = |name, losses| (losses != [1.0; 2]).then_some(name);
+    let gears = [gear("LoadGearObserver", behind), gear("GearedObserver", before)];
+    gears.into_iter().flatten().chain([selected]).collect()
 }
 
 /// The masses for the full solver.
 fn nodes(machine: &MachineFile, weight: f64) -> Vec<Node> {
-    let (ropes, efficiencies) = machine.ropes_and_efficiencies();
+    let (ropes, losses) = machine.ropes_and_losses();
     let (masses, shafts) = (machine.chain.masses(), machine.chain.shafts());
     let viscous = machine.viscous();
     let unless = |neutral: f64, value: f64| if value == neutral { String::new() } else { format!("{value:?}") };
@@ -294,7 +335,10 @@ fn nodes(machine: &MachineFile, weight: f64) -> Vec<Node> {
             shaft.map_or([1.0, 0.0, 0.0], |shaft| [shaft.stiffness, shaft.damping, shaft.gap]);
         // the weight keeps a gap on its flank
         let flank = if weight > 0.0 { 0.5 * gap } else { 0.0 };
-        let [ahead, back] = efficiencies.get(at).copied().unwrap_or([1.0; 2]);
+        let end = before.and_then(|before| losses.get(before)).map_or(ShaftLosses::NONE.end, |shaft| shaft.end);
+        let ends = end != ShaftLosses::NONE.end;
+        let front = losses.get(at).filter(|_| at < shafts.len()).map_or(ShaftLosses::NONE.front, |shaft| shaft.front);
+        let [ahead, back] = if ends { end } else { front };
         let is_rope = before.and_then(|before| ropes.get(before)).is_some_and(|&rope| rope);
         Node {
             from: before.unwrap_or(0),
@@ -302,6 +346,7 @@ fn nodes(machine: &MachineFile, weight: f64) -> Vec<Node> {
             viscous: unless(0.0, viscous[at]),
             efficiency: unless(1.0, ahead),
             back_efficiency: unless(ahead, back),
+            ends,
             kind: if is_rope { "rope" } else { "elastic" },
             stiffness: format!("{stiffness:?}"),
             damping: format!("{damping:?}"),
@@ -316,6 +361,7 @@ fn nodes(machine: &MachineFile, weight: f64) -> Vec<Node> {
         viscous: String::new(),
         efficiency: String::new(),
         back_efficiency: String::new(),
+        ends: false,
         kind: "elastic",
         stiffness: format!("{:?}", sized.stiffness),
         damping: format!("{:?}", sized.damping),

@@ -15,7 +15,7 @@ macro_rules! templates {
 templates! {
     "lib.rs" "machine.rs"
     "new/Cargo.toml" "new/README.md" "new/build.rs" "new/closed_loop.rs" "new/config.toml" "new/firmware.rs"
-    "new/generic.rs" "new/main.rs" "new/memory.x" "new/nucleo_g474re.rs" "new/qemu.rs"
+    "new/generic.rs" "new/main.rs" "new/memory.x" "new/nucleo_g474re.rs" "new/qemu.rs" "new/simulated.rs"
     "c/Cargo.toml" "c/README.md" "c/c.rs" "c/cmake" "c/header.h" "c/header.hpp" "c/main.c" "c/make"
     "fmu/controller.rs" "fmu/fmi.rs" "fmu/modelDescription.xml" "fmu/plant.rs"
 }
