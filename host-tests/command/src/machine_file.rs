@@ -60,12 +60,12 @@
 //! - **`worm`**: `ratio`, `efficiency`, `back_efficiency` with the load driving
 //! - **`planetary`**: `sun_teeth`, `ring_teeth`, `module` (m), `planets`, `sun`, `planet`, `carrier` (kg m2),
 //!   `planet_mass` (kg), (`efficiency`, `input` the member on the motor's side, `held`: `sun`, `ring` or `carrier`;
-//!   the sun and the ring where they are left out; `ring` (kg m2))
+//!   the sun and the ring where they are left out; `ring` (kg m2); `back_efficiency`)
 //! - **`belt`**: `driving`, `driven` (m), `stiffness` (N/m) of a strand, (`damping` (N s/m)), (`efficiency`)
 //! - **`screw`**: `lead` (m) a turn
 //! - **`swinging`**: `mass` (kg), `length` (m) of the pendulum
 //! - **`slack`**: `travel` (m) along the load's path
-//! - **`gear`**: `ratio` motor speed over load speed, (`efficiency`)
+//! - **`gear`**: `ratio` motor speed over load speed, (`efficiency`, `back_efficiency`)
 //! - **`drum`**: `diameter` (m)
 //! - **`rope`**: `falls`, `stiffness` (N/m) at the load, (`damping` (N s/m))
 //! - **`lifted`, `driven`**: `mass` (kg); a lifted one has weight

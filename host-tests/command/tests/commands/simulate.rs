@@ -337,6 +337,51 @@ fn worms_planetary_sets_and_gears_lose_power_in_a_run() {
     }
 }
 
+/// Elements that lock themselves hold their load without a torque of the motor: of -0.2 of the power back the load would
+/// have to be driven down.
+#[test]
+fn elements_that_lock_themselves_hold_their_load_in_a_run() {
+    let back = "efficiency = 0.4\nback_efficiency = -0.2\n";
+    let worm = format!("[[element]]\nkind = \"worm\"\nratio = 10.0\n{back}");
+    let gear = format!("[[element]]\nkind = \"gear\"\nratio = 10.0\n{back}");
+    let set = format!(
+        "[[element]]\nkind = \"planetary\"\nsun_teeth = 9\nring_teeth = 81\nmodule = 0.001\nplanets = 3\n\
+        sun = 1e-12\nplanet = 1e-12\nplanet_mass = 1e-12\ncarrier = 1e-12\n{back}"
+    );
+    for element in [worm, gear, set] {
+        let file = parse_train("hanging.toml", &hanging(&element)).unwrap();
+        let mut motion = file.motion.clone();
+        motion.advance(2.0);
+        assert_eq!(motion.speed(0), 0.0, "{element}");
+        // behind the coupling and no shaft the gear holds as well
+        let shaft = "[[element]]\nkind = \"shaft\"\nstiffness = 9.0e4\n";
+        let flange = "[[element]]\nkind = \"rotor\"\ninertia = 0.2\n";
+        let rigid = hanging(&format!("{shaft}{flange}{element}")).replacen(&format!("{element}{shaft}"), &element, 1);
+        let file = parse_train("hanging.toml", &rigid).unwrap();
+        let mut motion = file.motion.clone();
+        motion.advance(2.0);
+        assert_eq!((motion.links(), motion.speed(0), motion.speed(1)), (1, 0.0, 0.0), "{element}");
+    }
+}
+
+/// A motor of 0.5 kg m2 with a flange of 0.2 kg m2 lowers its load by itself: together they speed up as `(J_f + eta J_b)
+/// w' = -eta W`, at the mean of the coupling's swing.
+#[test]
+fn a_gear_without_a_shaft_behind_it_loses_power_in_a_run() {
+    let shaft = "[[element]]\nkind = \"shaft\"\nstiffness = 9.0e4\ndamping = 100.0\n";
+    let gear = "[[element]]\nkind = \"gear\"\nratio = 10.0\nefficiency = 0.7\n";
+    let front = format!("{shaft}[[element]]\nkind = \"rotor\"\ninertia = 0.2\n{gear}");
+    let behind = "[[element]]\nkind = \"shaft\"\nstiffness = 9.0e4\n";
+    let text = hanging(&front).replacen(&format!("{gear}{behind}"), gear, 1);
+    let mut motion = parse_train("hanging.toml", &text).unwrap().motion.clone();
+    motion.advance(1.0);
+    let before = motion.speed(1);
+    motion.advance(1.0);
+    let (load, weight) = ((2.0 + 100.0 * 0.2 * 0.2) / 100.0, 100.0 * 9.80665 * 0.2 / 10.0);
+    let expected = -0.7 * weight / (0.7 + 0.7 * load);
+    assert!(((motion.speed(1) - before) / expected - 1.0).abs() < 1e-9, "{}", motion.speed(1) - before);
+}
+
 /// A belt carries its own losses: driven back, of its torque `F` on the load the motor gets `eta F`, and keeps with the
 /// load `J_1 w_1 + eta J_2 w_2 = -eta W t`, the load's side at the motor by the ratio of the pulleys.
 #[test]

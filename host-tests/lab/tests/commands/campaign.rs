@@ -272,7 +272,7 @@ fn losses_backwards_reach_the_plant_of_a_file() {
     let text = include_str!("../../../command/machines/hoist.toml");
     let gear = "kind = \"gear\"\nratio = 31.5            # motor speed over drum speed\nefficiency = 0.94\n";
     assert!(text.contains(gear));
-    for (back, stays) in [(0.7, true), (0.9, false)] {
+    for (back, stays) in [(-0.1, true), (0.7, true), (0.9, false)] {
         let worm = format!("kind = \"worm\"\nratio = 31.5\nefficiency = 0.94\nback_efficiency = {back}\n");
         let machine = parse("hoist", &text.replace(gear, &worm)).unwrap();
         let weight = machine.chain.gravity_torque();

@@ -61,6 +61,10 @@ pub fn is_a_plant(machine: &MachineFile, source: &str) -> Result<(), Failure> {
     if machine.viscous().iter().any(|viscous| *viscous > 0.0) {
         return refused("it has `viscous`, which the plant does not have".to_owned());
     }
+    // the plant of the template is a chain
+    if let Some((mass, _)) = machine.rigid_gears().first() {
+        return refused(format!("the losses of the gear in `{}` need a shaft behind it", machine.names().0[*mass]));
+    }
     match machine.losses_of_no_chain() {
         Some(label) => refused(format!("the losses of `{label}` need a shaft before or behind it")),
         None => Ok(()),
