@@ -183,10 +183,9 @@ impl Carried {
     fn look(&mut self, elements: &[Part], at: &dyn Fn(usize) -> Option<usize>) {
         // inertia at the end of the elements before
         let mut before = 0.0;
-        for (part, Station { chain, .. }) in elements.iter().zip(stations(elements)) {
-            let last = chain.masses().len() - 1;
+        for (part, Station { last, inertia, .. }) in elements.iter().zip(stations(elements)) {
             let behind = if last > 0 && before == 0.0 { last - 1 } else { last };
-            before = chain.masses()[last];
+            before = inertia;
             let (shaft, losses) = match part.element {
                 Element::Rope { .. } => {
                     let rope = last.checked_sub(1).and_then(at).and_then(|shaft| self.rope.get_mut(shaft));
