@@ -315,6 +315,22 @@ impl Chain {
         this
     }
 
+    /// The chain with its last shaft and the two masses of it alone: what follows on it is referred as on the whole.
+    ///
+    /// For chains of more masses than one can hold, which are built piece by piece. Weight and efficiencies are those
+    /// of the whole.
+    #[must_use]
+    pub const fn continued(mut self) -> Self {
+        if self.count > 2 {
+            let (last, shaft) = (self.count - 1, self.shaft[self.count - 2]);
+            let [near, far] = [self.inertia[last - 1], self.inertia[last]];
+            (self.inertia, self.shaft) = ([0.0; CAPACITY], [Shaft::NONE; CAPACITY - 1]);
+            (self.inertia[0], self.inertia[1], self.shaft[0]) = (near, far, shaft);
+            self.count = 2;
+        }
+        self
+    }
+
     /// Referred inertias (kg m2), the motor first.
     #[must_use]
     pub const fn masses(&self) -> &[f64] {

@@ -123,7 +123,7 @@ pub use element::Element;
 pub use engine::Engine;
 pub use excitation::{Excitation, Running};
 pub use quantity::Quantity;
-pub use read::{LARGEST, not_toml, parse, read, text};
+pub use read::{LARGEST, not_toml, parse, parse_for_modes, read, text};
 pub use referred::ShaftLosses;
 pub use rotor::{Balancing, RotorFile, parse_rotor, read_rotor};
 pub use source::{Source, printable};
@@ -134,6 +134,7 @@ use class::Class;
 use driveline::machine::{Chain, Train};
 use factor::Tolerance;
 use serde::Serialize;
+use station::Long;
 
 /// A machine as its file describes it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -180,6 +181,9 @@ pub struct MachineFile {
     /// Chain and branches as the library's train; none where there is no branch.
     #[serde(skip)]
     pub train: Option<Train>,
+    /// Chain and branches of a machine that the library's chain and train do not hold, which then carry that error.
+    #[serde(skip)]
+    pub(crate) long: Option<Long>,
 }
 
 /// A chain of elements that stands on a mass.
@@ -201,6 +205,9 @@ pub struct Branch {
     /// Index of the first mass that the branch adds to the machine.
     #[serde(skip)]
     pub first: usize,
+    /// Number of its masses, with the one it stands on.
+    #[serde(skip)]
+    pub(crate) count: usize,
 }
 
 /// An element with the name that tables and plots give it.

@@ -67,6 +67,7 @@ mod solver;
 mod stepping;
 mod taylor;
 pub mod train;
+pub mod vibration;
 mod watch;
 
 pub use chain::{Chain, Start};

@@ -52,23 +52,25 @@ impl Shaking {
     /// zero: of the one that turns with the crank, and of the one that turns against it. kg m of a force; kg m2 of a
     /// moment, each unbalance times its place along the shaft. `crank` is that of one cylinder.
     ///
-    /// The part of the size f in units of the order's force has `f m r` of the first order, `f lambda m r/4` of the
-    /// second, whose shafts turn twice as fast. Derived. `None` for other orders than 1 and 2.
+    /// The part of the size f in units of the order's force F, whose shafts turn `order` times as fast, has
+    /// `f F/(order omega)^2`: `f m r` of the first order. Derived. `None` for orders that the crank's
+    /// [`force_orders`](CrankSlider::force_orders) do not resolve, 0 and above 16.
     #[must_use]
     pub const fn balance_shafts(&self, crank: &CrankSlider, order: u32) -> Option<[[f64; 2]; 2]> {
-        let [first, second] = crank.force_orders(1.0);
-        let opposite = match order {
-            1 => -first,
-            2 => -0.25 * second,
-            _ => return None,
-        };
+        if order == 0 || order as usize >= ORDERS {
+            return None;
+        }
+        let opposite = -crank.force_orders::<ORDERS>(1.0)[order as usize] / (order as f64 * order as f64);
         let [f, b] = [self.forward, self.backward];
         Some([[opposite * f[0], opposite * f[1]], [opposite * b[0], opposite * b[1]]])
     }
 }
 
-/// Free force of an order, 1 or 2, in units of [`force_orders`](crate::machine::CrankSlider::force_orders):
-/// `m r omega^2` of the first, `lambda m r omega^2` of the second.
+/// Orders that balance shafts are made for, 0 among them.
+const ORDERS: usize = 17;
+
+/// Free force of an order in units of one cylinder's, see
+/// [`force_orders`](crate::machine::CrankSlider::force_orders): `m r omega^2` of the first.
 ///
 /// Rotating masses at the throws, one for each cylinder, give twice the forward part of the first order, in units of
 /// their own `m r omega^2`.

@@ -45,8 +45,8 @@ impl Design {
     /// Reads the machine and designs its controller.
     ///
     /// # Errors
-    /// A machine file with a fault; a machine that cannot be observed or governed so. An unstable speed loop, of which
-    /// the design is printed and no constants.
+    /// A machine file with a fault; a machine that cannot be observed or governed so. A speed loop that lacks margins, of
+    /// which the design is printed; of an unstable one no constants.
     pub fn execute(&self) -> Result<(), Failure> {
         let machine = read(&self.file)?;
         let refused =
@@ -65,8 +65,13 @@ impl Design {
             (None, true) => say_json(&plan)?,
             (None, false) => say(text(&machine, &plan)),
         }
-        let failed = |why| Failure::failed(format!("{}: the speed loop has no margins: {why}", self.file.display()));
-        unstable.map_or(Ok(()), |why| Err(failed(why)))
+        let lack = |which: &str, why: &String| {
+            Failure::failed(format!("{}: the speed loop {which} margins: {why}", self.file.display()))
+        };
+        if let Some(why) = unstable {
+            return Err(lack("has no", why));
+        }
+        speed_loop.and_then(|governor| governor.not_robust.as_ref()).map_or(Ok(()), |why| Err(lack("lacks", why)))
     }
 }
 
@@ -85,7 +90,9 @@ fn emitted(machine: &MachineFile, plan: &Plan) -> Result<String, String> {
             format!("\n// Not among these: {}; `cargo driveline new` writes a project with them.\n", parts.join(", "))
         }
     };
-    rust(machine).map(|text| text + &note)
+    let lack = plan.speed_loop.as_ref().and_then(|governor| governor.not_robust.as_ref());
+    let warning = lack.map_or_else(String::new, |why| format!("\n// The speed loop lacks margins: {why}.\n"));
+    rust(machine).map(|text| text + &note + &warning)
 }
 
 /// The design in words and tables.

@@ -2,9 +2,11 @@
 
 mod campbell;
 mod chain;
+mod damped;
 mod damper;
 mod engine;
 mod figures;
+mod network;
 mod page;
 mod response;
 mod tables;
@@ -22,7 +24,7 @@ use train::TrainVibration;
 
 use super::results::{Destination, check};
 use super::{Failure, Progress, say, say_json};
-use crate::machine_file::{is_train, parse, parse_train_for_modes, text};
+use crate::machine_file::{is_train, parse_for_modes, parse_train_for_modes, text};
 use driveline_report::Section;
 
 /// Find natural frequencies and shapes of a machine, its two-mass reductions, and the sensitivity to each part.
@@ -60,8 +62,8 @@ impl Modes {
             let vibration = Progress::during(|| TrainVibration::of(&file), &format!("{name}: finding the modes"))?;
             return self.show(&file.slug(), || vibration.page(&file), &vibration, vibration.tables());
         }
-        let machine = parse(&name, &text)?;
-        let vibration = Vibration::of(&machine);
+        let machine = parse_for_modes(&name, &text)?;
+        let vibration = Progress::during(|| Vibration::of(&machine), &format!("{name}: finding the modes"))?;
         self.show(&machine.slug(), || page(&machine, &vibration), &vibration, tables(&vibration))
     }
 

@@ -60,6 +60,13 @@ pub enum Refusal {
     /// The estimate is no machine.
     #[error("the fit has {0}, which no machine has: check units and sign of torque and motion")]
     Impossible(&'static str),
+    /// The swing grows.
+    #[error(
+        "the fit of two masses has a damping ratio of {0:.3}, zero or above is expected: the machine may have a third \
+         mass that swings in the band, a rope or shaft that goes slack, a gap, or a torque that was not recorded; \
+         record less of the band or a larger mean torque, and if that does not help, check sign and units"
+    )]
+    Growing(f64),
     /// The swing is none.
     #[error(
         "the fit has a damping ratio of {0:.3}, below 1 is expected: no swing shows in the record; check the units of \
@@ -147,7 +154,7 @@ const BELOW: f64 = 5.0;
 pub fn figures(estimate: &Estimate) -> Result<(), Refusal> {
     let Estimate { model, figures, unexplained, condition, band, .. } = estimate;
     if !(model.damping_ratio() > -0.01) {
-        return Err(Refusal::Impossible("a resonance that grows by itself"));
+        return Err(Refusal::Growing(model.damping_ratio()));
     }
     if !(model.damping_ratio() < 1.0) {
         return Err(Refusal::Overdamped(model.damping_ratio()));

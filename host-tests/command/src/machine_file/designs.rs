@@ -44,20 +44,82 @@ pub struct Designs {
     pub is_rigid_refused: bool,
 }
 
-/// What a speed loop lacks, and the remedy in the words of a machine file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What a speed loop lacks, and a remedy in the words of a machine file.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lack {
     /// What is not there.
     pub cause: &'static str,
-    /// What to change, where that is known.
-    remedy: Option<&'static str>,
+    /// What gives it all margins, as tried.
+    remedy: Option<Remedy>,
+    /// Whether remedies were tried.
+    is_tried: bool,
+}
+
+/// A change of the file that was tried.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Remedy {
+    /// `bandwidth` of `[speed_loop]`.
+    Bandwidth(f64),
+    /// `within` of `[disturbance]` (s).
+    Within(f64),
+    /// Share of every deviation of `[tolerance]`.
+    Tolerance(f64),
+}
+
+impl Remedy {
+    /// Those that are tried for a machine, the mildest of a kind first.
+    fn all(machine: &MachineFile) -> impl Iterator<Item = Self> {
+        let (bandwidth, within) = (machine.bandwidth, machine.disturbance.within);
+        let slower = [0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1, 0.05];
+        let slower = slower.into_iter().map(move |share| Self::Bandwidth(short(share * bandwidth)));
+        let faster = [0.5, 0.2, 0.1, 0.05, 0.02, 0.01];
+        let faster = faster.into_iter().map(move |share| Self::Within(short(share * within)));
+        slower.chain(faster).chain([0.75, 0.5, 0.25].map(Self::Tolerance))
+    }
+
+    /// The machine with it.
+    fn on(self, machine: &MachineFile) -> MachineFile {
+        let mut changed = machine.clone();
+        match self {
+            Self::Bandwidth(bandwidth) => changed.bandwidth = bandwidth,
+            Self::Within(within) => changed.disturbance.within = within,
+            Self::Tolerance(share) => {
+                for one in &mut changed.tolerances {
+                    let nominal = one.factor.about(0.0).low;
+                    one.low = nominal + share * (one.low - nominal);
+                    one.high = nominal + share * (one.high - nominal);
+                }
+            }
+        }
+        changed
+    }
+}
+
+/// The same in two digits, as a message has it.
+fn short(value: f64) -> f64 {
+    format!("{value:.1e}").parse().unwrap_or(value)
+}
+
+impl fmt::Display for Remedy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Bandwidth(bandwidth) => write!(f, "with `bandwidth = {bandwidth}` in `[speed_loop]` it has them all"),
+            Self::Within(within) => {
+                write!(f, "with `within = {within}` in `[disturbance]`, a faster observer, it has them all")
+            }
+            Self::Tolerance(share) => {
+                write!(f, "with {:.0} % of every deviation in `[tolerance]` it has them all", 100.0 * share)
+            }
+        }
+    }
 }
 
 impl Lack {
     /// Two masses are stable, the machine is not.
     const NEGLECTED: Self = Self {
         cause: "the speed loop with its observer is unstable by a vibration that the two masses leave out",
-        remedy: Some("give its shafts their damping, or take less `bandwidth` in `[speed_loop]`"),
+        remedy: None,
+        is_tried: false,
     };
 
     /// What the library says of a loop.
@@ -68,26 +130,14 @@ impl Lack {
             Error::LoopLate => "the speed loop with its observer is unstable with a torque as late as it may be",
             other => other.message(),
         };
-        let is_of_loop = matches!(
-            error,
-            Error::LoopUnstable
-                | Error::LoopGain
-                | Error::LoopPhase
-                | Error::LoopMotorInertia
-                | Error::LoopLoadInertia
-                | Error::LoopStiffness
-                | Error::LoopTorque
-                | Error::LoopLate
-                | Error::LoopCorner
-                | Error::SpeedLoopUnstable
-        );
-        if !is_of_loop {
-            return Self { cause: sentence, remedy: None };
-        }
-        Self {
-            cause: sentence.split_once(':').map_or(sentence, |(cause, _)| cause),
-            remedy: Some("take less `bandwidth` in `[speed_loop]`, or narrower values in `[tolerance]`"),
-        }
+        let cause = sentence.split_once(':').map_or(sentence, |(cause, _)| cause);
+        Self { cause, remedy: None, is_tried: false }
+    }
+
+    /// With the first remedy that leaves nothing lacking.
+    fn with_remedy(self, machine: &MachineFile, two: &TwoMass, is_rigid: bool) -> Self {
+        let helps = |remedy: &Remedy| matches!(remedy.on(machine).lack_with(two, is_rigid), Ok(None));
+        Self { remedy: Remedy::all(machine).find(helps), is_tried: true, ..self }
     }
 }
 
@@ -95,6 +145,12 @@ impl fmt::Display for Lack {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.remedy {
             Some(remedy) => write!(f, "{}: {remedy}", self.cause),
+            None if self.is_tried => write!(
+                f,
+                "{}: neither less `bandwidth` in `[speed_loop]`, a shorter `within` in `[disturbance]` nor a quarter \
+                 of the deviations in `[tolerance]` mends it alone; the shafts may need damping",
+                self.cause
+            ),
             None => f.write_str(self.cause),
         }
     }
@@ -118,8 +174,12 @@ impl Designs {
         let rigid_errors = errors(LoopObserver::Rigid(&rigid));
         let period = 1.0 / f64::from(machine.control.rate_hz);
         let nominal = two.select_observer(&operation.cycle, &Requirement::USUAL, period);
-        let two_masses_lack = machine.lacks(two, LoopObserver::TwoMass(&two_masses), &speed_loop)?;
-        let rigid_lacks = machine.lacks(two, LoopObserver::Rigid(&rigid), &speed_loop)?;
+        let lack = |observer, is_rigid| {
+            let lack = machine.lacks(two, observer, &speed_loop)?;
+            Ok::<_, Error>(lack.map(|lack| lack.with_remedy(machine, two, is_rigid)))
+        };
+        let two_masses_lack = lack(LoopObserver::TwoMass(&two_masses), false)?;
+        let rigid_lacks = lack(LoopObserver::Rigid(&rigid), true)?;
         let as_good = nominal.over_tolerances(&rigid_errors.total(), &two_masses_errors.total());
         let is_rigid_refused =
             as_good.chosen == ObserverChoice::Rigid && rigid_lacks.is_some() && two_masses_lack.is_none();
@@ -243,6 +303,18 @@ impl MachineFile {
             Some(Error::LoopUnstable) => Some(Lack::of(Error::LoopUnstable)),
             error => neglected.or(error.map(Lack::of)),
         })
+    }
+
+    /// What the loop of a machine lacks with one of its observers.
+    fn lack_with(&self, two: &TwoMass, is_rigid: bool) -> Result<Option<Lack>, Error> {
+        let (rate, encoder, disturbance) = self.tuning();
+        let speed_loop = two.try_speed_loop(rate, self.speed_loop_tuning(two))?;
+        if is_rigid {
+            let rigid = self.rigid()?.try_observer(rate, encoder, disturbance)?;
+            return self.lacks(two, LoopObserver::Rigid(&rigid), &speed_loop);
+        }
+        let two_masses = two.try_observer(rate, encoder, disturbance)?;
+        self.lacks(two, LoopObserver::TwoMass(&two_masses), &speed_loop)
     }
 
     /// Range of a factor, where it has one.

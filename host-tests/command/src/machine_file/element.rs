@@ -352,7 +352,13 @@ impl Element {
     /// # Errors
     /// The library's own sentence where the element cannot follow.
     pub fn follow(self, chain: Chain) -> Result<Chain, Error> {
-        let chain = match self {
+        let chain = self.append(chain)?;
+        chain.error().map_or(Ok(chain), Err)
+    }
+
+    /// The same; a chain that cannot take it carries the error.
+    pub(super) fn append(self, chain: Chain) -> Result<Chain, Error> {
+        Ok(match self {
             Self::Motor { inertia, .. } => Chain::motor(Inertia(inertia)),
             Self::Rotor { inertia, .. } => chain.rotor(Inertia(inertia)),
             Self::Shaft { stiffness, damping, .. } => {
@@ -440,8 +446,7 @@ impl Element {
             Self::Lifted { mass } => chain.lifted(Mass(mass)),
             Self::Driven { mass } => chain.driven(Mass(mass)),
             Self::Backlash { gap } => chain.backlash(Gap(gap)),
-        };
-        chain.error().map_or(Ok(chain), Err)
+        })
     }
 
     /// The element in the words of the library's builder, as `.rotor(Inertia(0.08))`.

@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use driveline::design::{ClosedLoop, SpeedLoopTuning};
-use driveline::machine::{Chain, Ratio, Train};
+use driveline::machine::{CAPACITY, Chain, Error, Ratio, Train};
 use toml::Spanned;
 use toml::de::DeTable;
 
@@ -18,7 +18,7 @@ use super::excitation::excitations;
 use super::factor::{Factor, Tolerance};
 use super::quantity::Quantity;
 use super::source::{Source, printable};
-use super::station::{NOTHING, Station, begun, stations};
+use super::station::{Line, Long, NOTHING, Station, begun, stations};
 use super::table::Table;
 use super::{Accuracy, Actuator, Branch, Control, Disturbance, Duty, Element, Encoder, Limits, MachineFile, Part};
 use driveline_report::format::significant;
@@ -80,13 +80,27 @@ pub fn text(path: &Path, what: &str) -> Result<(String, String), Diagnostic> {
 /// # Errors
 /// A [`Diagnostic`] with the place, the key, what was found and what was expected.
 pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
+    parse_up_to(name, text, CAPACITY)
+}
+
+/// Reads a machine from a text for its modes, with any number of masses.
+///
+/// # Errors
+/// As [`parse`].
+pub fn parse_for_modes(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
+    parse_up_to(name, text, usize::MAX)
+}
+
+fn parse_up_to(name: &str, text: &str, most: usize) -> Result<MachineFile, Diagnostic> {
     let source = Source { name, text };
     let document = document(source, "a machine: `name`, [[element]] tables and the settings")?;
     let mut root = Table::root(source, document.get_ref());
 
     let machine_name = named(source, &mut root)?;
-    let (elements, chain) = elements(source, &mut root, "", &[])?;
-    let (branches, train, masses) = branches(source, &mut root, chain, &elements)?;
+    let (elements, chain, count) = elements(source, &mut root, "", &[], most)?;
+    let (branches, train, masses) = branches(source, &mut root, (chain, count), &elements, most)?;
+    let error = train.as_ref().map_or(chain.error(), |train| train.error());
+    let long = error.and_then(|_| Long::of(&elements, &branches));
     let encoder = section(&mut root, "encoder", |table| {
         // `LINES` and `RATE` allow whole numbers within `u32` only.
         let lines = table.number("lines", Quantity::LINES)?;
@@ -149,7 +163,8 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
     if let Some(engine) = &engine {
         excitations.push(engine.excitation());
     }
-    let modes = train.as_ref().map_or(chain.masses().len(), |train| train.masses().len()) - 1;
+    let shafts = |own: usize| own - 1;
+    let modes = branches.iter().map(|branch| shafts(branch.count)).sum::<usize>() + shafts(count);
     let dampers = DamperRing::read_all(&mut root, &masses, modes)?;
     // what a run of it needs is read by `read_train`
     root.pass(&["link", "torque", "friction", "start", "run"]);
@@ -185,6 +200,7 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
         chain,
         branches,
         train,
+        long,
     })
 }
 
@@ -291,16 +307,20 @@ pub(super) fn section<T>(
 }
 
 /// Reads the elements and puts them together, so that what cannot follow is reported at its own place. The labels of
-/// `before` are taken.
+/// `before` are taken. Beside the elements their chain, which carries an error where it has more masses than it holds
+/// but not more than `most`, and the number of masses.
 fn elements(
     source: Source<'_>,
     table: &mut Table<'_>,
     heading: &str,
     before: &[Part],
-) -> Result<(Vec<Part>, Chain), Diagnostic> {
+    most: usize,
+) -> Result<(Vec<Part>, Chain, usize), Diagnostic> {
     let branch = !before.is_empty();
     let mut parts: Vec<Part> = Vec::new();
     let mut chain: Option<Chain> = None;
+    let mut line: Option<Line> = None;
+    let room = |chain: &Chain| chain.error().filter(|error| *error != Error::TooManyMasses || most == CAPACITY);
     let mut last: Range<usize> = 0..0;
     let listed = if branch { table.tables_of("element", "part of the branch") } else { table.tables("element") };
     for (index, (span, mut table)) in listed?.into_iter().enumerate() {
@@ -310,46 +330,51 @@ fn elements(
         let label = label(&mut table)?;
         let element = Element::read(table)?;
         let kind = element.kind();
-        let longer = match (element, chain) {
+        let longer = match (element, &mut line) {
             (Element::Motor { .. }, Some(_)) => {
                 return Err(at("a second motor".to_owned(), "one motor only, as the first element"));
             }
             (Element::Motor { .. }, None) if branch => {
                 return Err(at("a second motor".to_owned(), "one motor only, as the first element of the chain"));
             }
-            (Element::Motor { .. }, None) => begun(element),
-            (element, None) if branch => begun(element),
+            (Element::Motor { .. }, None) => begun(element).map(|first| line = Some(first)),
+            (element, None) if branch => begun(element).map(|first| line = Some(first)),
             (_, None) => return Err(at(format!("a {kind} before the motor"), "the motor as the first element")),
-            (element, Some(chain)) => element.follow(chain),
+            (element, Some(line)) => line.follow(element),
         };
-        let refused = |error: driveline::machine::Error| {
+        let whole = longer.and_then(|()| match chain {
+            Some(chain) => element.append(chain),
+            None => begun(element).map(|first| first.end),
+        });
+        let whole = whole.and_then(|whole| room(&whole).map_or(Ok(whole), Err));
+        chain = Some(whole.map_err(|error| {
             at(format!("a {kind} that cannot stand here ({error})"), "an element that can follow those before it")
-        };
-        chain = Some(longer.map_err(refused)?);
+        })?);
         let same = before.iter().chain(&parts).filter(|part| part.element.kind() == kind).count();
         let label = label.unwrap_or_else(|| if same == 0 { kind.to_owned() } else { format!("{kind} {}", same + 1) });
         parts.push(Part { label, element });
         last = span;
     }
     let key = format!("{heading}element[{}]", parts.len().saturating_sub(1));
-    let Some(chain) = chain else {
+    let (Some(chain), Some(line)) = (chain, line) else {
         return Err(Diagnostic::at(source, last, key, "no element", "the motor as the first element"));
     };
     let kind = parts.last().map_or("motor", |part| part.element.kind());
-    let ended = |error: driveline::machine::Error| {
+    let ended = |error: Error| {
         let found = format!("a chain that ends in a {kind} ({error})");
         Diagnostic::at(source, last, key, found, "a rotor, a lifted or a driven mass as the last element")
     };
-    chain.check().map_err(ended)?;
-    Ok((parts, chain))
+    line.end.check().map_err(ended)?;
+    Ok((parts, chain, line.masses.len()))
 }
 
 /// Reads the branches, each on a mass of the chain or of a branch before it.
 fn branches(
     source: Source<'_>,
     root: &mut Table<'_>,
-    chain: Chain,
+    (chain, count): (Chain, usize),
     main: &[Part],
+    most: usize,
 ) -> Result<(Vec<Branch>, Option<Train>, Vec<Turning>), Diagnostic> {
     let mut branches: Vec<Branch> = Vec::new();
     // masses that can carry a branch
@@ -364,6 +389,7 @@ fn branches(
     masses.extend(main.iter().zip(&stations(main)).filter_map(|(part, station)| turning(part, station)));
     let mut parts = main.to_vec();
     let mut train: Option<Train> = None;
+    let mut first = count;
     for (index, (span, mut table)) in root.tables_if("branch", "branch")?.into_iter().enumerate() {
         let known = masses.iter().map(|(label, ..)| format!("\"{label}\"")).collect::<Vec<_>>().join(", ");
         let expected = format!("the label of a mass that turns: {known}");
@@ -376,13 +402,13 @@ fn branches(
             return Err(table.wrong("at", "a label that one mass alone has"));
         }
         let key = format!("branch[{index}]");
-        let (elements, own) = elements(source, &mut table, &format!("{key}."), &parts)?;
+        let (elements, own, count) = elements(source, &mut table, &format!("{key}."), &parts, most)?;
         table.finish()?;
         if own.masses() == [NOTHING.0] {
             let expected = "a rotor, a lifted or a driven mass as its last element";
             return Err(Diagnostic::at(source, span, key, "a branch without a mass", expected));
         }
-        let refused = |error: driveline::machine::Error| {
+        let refused = |error: Error| {
             let found = format!("a branch that cannot stand here ({error})");
             Diagnostic::at(source, span.clone(), key.clone(), found, "a branch that the train has room for")
         };
@@ -390,10 +416,11 @@ fn branches(
             Some(train) => train,
             None => Train::of(chain),
         };
-        let first = before.masses().len();
         let branched = before.branch(node, Ratio(ratio), own);
-        train = Some(branched.error().map_or(Ok(branched), |error| Err(refused(error)))?);
-        let branch = Branch { at, elements, chain: own, node, ratio, first };
+        let full = branched.error().filter(|error| *error != Error::TooManyMasses || most == CAPACITY);
+        train = Some(full.map_or(Ok(branched), |error| Err(refused(error)))?);
+        let branch = Branch { at, elements, chain: own, node, ratio, first, count };
+        first += count - 1;
         let below = stations(&branch.elements);
         masses.extend(branch.elements.iter().zip(&below).filter_map(|(part, station)| {
             turning(part, station).map(|(label, mass, own)| (label, branch.mass(mass), ratio * own))

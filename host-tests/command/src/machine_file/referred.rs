@@ -241,13 +241,12 @@ struct Carried {
 impl Carried {
     /// Looks at the elements of a chain or a branch; `at` and `on` place its shafts and masses in the whole machine.
     fn look(&mut self, elements: &[Part], at: &dyn Fn(usize) -> Option<usize>, on: &dyn Fn(usize) -> usize) {
-        let whole = stations(elements).last().map_or(0.0, |end| end.chain.masses().last().copied().unwrap_or(0.0));
+        let whole = stations(elements).last().map_or(0.0, |end| end.inertia);
         // inertia at the end of the elements before
         let mut before = 0.0;
-        for (part, Station { chain, .. }) in elements.iter().zip(stations(elements)) {
-            let last = chain.masses().len() - 1;
+        for (part, Station { last, inertia, .. }) in elements.iter().zip(stations(elements)) {
             let ends_in_shaft = last > 0 && before == 0.0;
-            before = chain.masses()[last];
+            before = inertia;
             let (shaft, losses) = match part.element {
                 Element::Rope { .. } => {
                     let rope = last.checked_sub(1).and_then(at).and_then(|shaft| self.rope.get_mut(shaft));

@@ -4,6 +4,34 @@ use driveline::machine::{Chain, Damper, Error, Inertia, Joint, Match, Modes, Rat
 
 use super::{Branch, DamperKind, DamperRing, Element, MachineFile, Part};
 
+/// A chain of any number of masses, referred to its first. The library's own holds 16.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Line {
+    pub masses: Vec<f64>,
+    pub shafts: Vec<Shaft>,
+    /// The last of it, which the next element follows.
+    pub end: Chain,
+}
+
+impl Line {
+    fn of(end: Chain) -> Self {
+        Self { masses: end.masses().to_vec(), shafts: end.shafts().to_vec(), end }
+    }
+
+    /// Puts an element at its end.
+    ///
+    /// # Errors
+    /// As [`Element::follow`].
+    pub fn follow(&mut self, element: Element) -> Result<(), Error> {
+        let first = self.masses.len() - self.end.masses().len();
+        let longer = element.follow(self.end)?;
+        self.masses.splice(first.., longer.masses().iter().copied());
+        self.shafts.splice(first.., longer.shafts().iter().copied());
+        self.end = longer.continued();
+        Ok(())
+    }
+}
+
 /// Where an element stands in its chain.
 pub(crate) struct Station {
     /// The mass that it is, or is a part of.
@@ -12,34 +40,46 @@ pub(crate) struct Station {
     pub shaft: Option<usize>,
     /// The motor's speed, or the speed of what a branch stands on, over that of the element where it begins.
     pub ratio: f64,
-    /// The chain up to and with the element.
-    pub chain: Chain,
+    /// Index of the last mass up to and with the element.
+    pub last: usize,
+    /// Its inertia there (kg m2).
+    pub inertia: f64,
 }
 
 /// First element of a branch that does not begin with a rotor: an inertia of zero.
 pub(crate) const NOTHING: Inertia = Inertia(f64::MIN_POSITIVE);
 
 /// The chain of a machine with its first element, or of a branch with its first.
-pub(super) fn begun(element: Element) -> Result<Chain, Error> {
-    match element {
+pub(super) fn begun(element: Element) -> Result<Line, Error> {
+    let begun = match element {
         Element::Rotor { inertia, viscous } => Element::Motor { inertia, viscous }.follow(Chain::motor(NOTHING)),
         element => element.follow(Chain::motor(NOTHING)),
-    }
+    };
+    begun.map(Line::of)
+}
+
+/// The elements as one chain; none of no elements.
+pub(crate) fn line(elements: &[Part]) -> Option<Line> {
+    let (first, rest) = elements.split_first()?;
+    // the elements were read as a chain, so each of them can follow
+    let mut line = begun(first.element).ok()?;
+    rest.iter().try_for_each(|part| line.follow(part.element)).ok()?;
+    Some(line)
 }
 
 /// Where the elements of a chain stand, in their order.
 pub(crate) fn stations(elements: &[Part]) -> Vec<Station> {
-    let mut stations: Vec<Station> = Vec::new();
+    let mut stations: Vec<Station> = Vec::with_capacity(elements.len());
+    let mut line: Option<Line> = None;
     for part in elements {
-        let before = stations.last().map(|station| station.chain);
-        let ratio = before.map_or(1.0, |chain| chain.ratio());
-        let chain = match before {
-            None => begun(part.element),
-            Some(chain) => part.element.follow(chain),
-        };
-        // the chain was built of these elements, so each of them can follow
-        let Some(chain) = chain.ok().or(before) else { continue };
-        let last = chain.masses().len() - 1;
+        let ratio = line.as_ref().map_or(1.0, |line| line.end.ratio());
+        // the elements were read as a chain, so each of them can follow
+        match &mut line {
+            None => line = begun(part.element).ok(),
+            Some(line) => _ = line.follow(part.element),
+        }
+        let Some(line) = &line else { continue };
+        let last = line.masses.len() - 1;
         let (mass, shaft) = match part.element {
             Element::Motor { .. }
             | Element::Rotor { .. }
@@ -59,9 +99,43 @@ pub(crate) fn stations(elements: &[Part]) -> Vec<Station> {
             | Element::Slack { .. }
             | Element::Backlash { .. } => (None, None),
         };
-        stations.push(Station { mass, shaft, ratio, chain });
+        stations.push(Station { mass, shaft, ratio, last, inertia: line.masses[last] });
     }
     stations
+}
+
+/// A machine of more masses than the library's chains and trains hold, referred to the motor.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Long {
+    masses: Vec<f64>,
+    joints: Vec<Joint>,
+    gravity_torque: f64,
+}
+
+impl Long {
+    /// Of a chain and its branches.
+    pub(super) fn of(elements: &[Part], branches: &[Branch]) -> Option<Self> {
+        let main = line(elements)?;
+        let between = |(from, &shaft): (usize, &Shaft)| Joint { from, to: from + 1, shaft };
+        let mut long = Self {
+            joints: main.shafts.iter().enumerate().map(between).collect(),
+            gravity_torque: main.end.gravity_torque(),
+            masses: main.masses,
+        };
+        for branch in branches {
+            let own = line(&branch.elements)?;
+            let square = branch.ratio * branch.ratio;
+            long.masses[branch.node] += own.masses[0] / square;
+            long.masses.extend(own.masses[1..].iter().map(|inertia| inertia / square));
+            long.gravity_torque += own.end.gravity_torque() / branch.ratio;
+            long.joints.extend(own.shafts.iter().enumerate().map(|(from, &shaft)| {
+                let (stiffness, damping) = (shaft.stiffness / square, shaft.damping / square);
+                let shaft = Shaft { stiffness, damping, gap: shaft.gap * branch.ratio, ..shaft };
+                Joint { from: branch.mass(from), to: branch.mass(from + 1), shaft }
+            }));
+        }
+        Some(long)
+    }
 }
 
 impl Branch {
@@ -80,11 +154,17 @@ impl Branch {
 impl MachineFile {
     /// Inertias (kg m2) at the motor: the chain's, then those of the branches in their order.
     pub fn masses(&self) -> &[f64] {
+        if let Some(long) = &self.long {
+            return &long.masses;
+        }
         self.train.as_ref().map_or(self.chain.masses(), |train| train.masses())
     }
 
     /// The shafts between them, in the same order.
     pub fn joints(&self) -> Vec<Joint> {
+        if let Some(long) = &self.long {
+            return long.joints.clone();
+        }
         let between = |(from, &shaft): (usize, &Shaft)| Joint { from, to: from + 1, shaft };
         match &self.train {
             Some(train) => train.joints().to_vec(),
@@ -150,6 +230,9 @@ impl MachineFile {
 
     /// Torque of the weights at the motor (N m).
     pub fn gravity_torque(&self) -> f64 {
+        if let Some(long) = &self.long {
+            return long.gravity_torque;
+        }
         self.train.as_ref().map_or(self.chain.gravity_torque(), |train| train.gravity_torque())
     }
 

@@ -93,7 +93,7 @@ pub(crate) use stiffness::too_stiff;
 /// Most lines that a run may have.
 const LINES: f64 = 1e6;
 
-/// Most coordinates: their modes take time with the third power of their number.
+/// Most coordinates of a run, whose steps take a time with the square of their number; modes have no limit.
 const COORDINATES: usize = 200;
 
 /// A train as its file describes it, ready to run.
@@ -240,8 +240,9 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
             dampers = machine.damper_parts(coordinates.len());
         }
     } else {
+        let most = if asked == Asked::Modes { usize::MAX } else { COORDINATES };
         let tables = if root.has("spur_pair") { root.tables_if("coordinate", "")? } else { root.tables("coordinate")? };
-        if let Some((place, _)) = tables.get(COORDINATES) {
+        if let Some((place, _)) = tables.get(most) {
             let (found, expected) = (format!("{} coordinates", tables.len()), format!("at most {COORDINATES}"));
             return Err(Diagnostic::at(source, place.clone(), "coordinate", found, expected));
         }
@@ -255,7 +256,7 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
             link_places.extend(std::iter::repeat_n(place.clone(), held.len()));
             coordinates.extend(own);
             links.extend(held);
-            if coordinates.len() > COORDINATES {
+            if coordinates.len() > most {
                 let (found, expected) =
                     (format!("{} coordinates", coordinates.len()), format!("at most {COORDINATES}"));
                 return Err(Diagnostic::at(source, place, "spur_pair", found, expected));

@@ -374,7 +374,72 @@ fn rotors_are_damped_against_the_ground() {
     }
     let machine = parse("x.toml", &text(2.0, 24.0, "")).unwrap();
     assert_eq!(machine.viscous(), [2.0, 6.0]);
-    let vibration = cargo_driveline::cli::Vibration::of(&machine);
+    let vibration = cargo_driveline::cli::Vibration::of(&machine).unwrap();
     let omega = f64::sqrt(750.0 * (1.0 / 0.5 + 1.0 / 1.5));
-    close(vibration.resonances[0].damping_ratio, 4.0 / (2.0 * omega), 1e-13);
+    close(vibration.damped[0].decay, 4.0, 1e-14);
+    close(vibration.damped[1].damping_ratio, 4.0 / (2.0 * omega), 1e-13);
+    close(vibration.damped[1].frequency, (omega * omega - 4.0_f64).sqrt(), 1e-14);
+}
+
+/// A shaft between two masses is not lumped: of an even one the equation of its angles, of a cone that of the spherical
+/// Bessel functions of order 1, which `(s^4 f')' + kappa^2 s^4 f = 0` leads to. Five modes each.
+#[test]
+fn modes_of_a_shaft_with_inertia_are_those_of_the_continuum() {
+    let [motor, rotor] = [2000.0, 394.0];
+    let (table, bit) = (format!("kind = \"motor\"\ninertia = {motor}"), format!("kind = \"rotor\"\ninertia = {rotor}"));
+    let of = |shaft: &str| {
+        let tables: String = [&table, shaft, &bit].iter().map(|keys| format!("[[element]]\n{keys}\n")).collect();
+        let machine = parse("x.toml", &format!("name = \"x\"\n{tables}{SETTINGS}")).unwrap();
+        cargo_driveline::cli::Vibration::of(&machine).unwrap().resonances
+    };
+    // angle and torque of two solutions at either end
+    let residual = |near: [[f64; 2]; 2], far: [[f64; 2]; 2], omega: f64| {
+        let square = omega * omega;
+        let [a, b] = near.map(|[angle, torque]| torque + square * motor * angle);
+        let [c, d] = far.map(|[angle, torque]| torque - square * rotor * angle);
+        a * d - b * c
+    };
+    let even = |omega: f64| {
+        let (theta, k) = (omega * f64::sqrt(317.0 / 473.0), 473.0);
+        let (sine, cosine) = theta.sin_cos();
+        residual([[1.0, 0.0], [0.0, k * theta]], [[cosine, -k * theta * sine], [sine, k * theta * cosine]], omega)
+    };
+    // 0.6 to 0.2 m over 40 m: the apex lies 20 m beyond the thin end
+    let cone = |omega: f64| {
+        let kappa = omega * f64::sqrt(7850.0 / 79.3e9);
+        let at = |s: f64| {
+            let (x, stiffness) = (kappa * s, 79.3e9 * std::f64::consts::PI / 32.0 * (0.01 * s).powi(4) * kappa);
+            let (sine, cosine) = x.sin_cos();
+            let [one, other] = [sine - x * cosine, cosine + x * sine];
+            // towards the apex
+            [[one, x * sine], [other, x * cosine]]
+                .map(|[f, rate]| [f / x.powi(3), -stiffness * (x * rate - 3.0 * f) / x.powi(4)])
+        };
+        residual(at(60.0), at(20.0), omega)
+    };
+    let even_text = "kind = \"shaft\"\nstiffness = 473.0\ninertia = 317.0";
+    let cone_text = "kind = \"section\"\nlength = 40.0\ndiameter = 0.6\nend = 0.2\ndensity = 7850.0";
+    for (text, equation) in [(even_text, &even as &dyn Fn(f64) -> f64), (cone_text, &cone)] {
+        for mode in &of(text)[..5] {
+            // the equation changes its sign within 1e-9
+            let [below, above] = [1.0 - 1e-9, 1.0 + 1e-9].map(|by| equation(by * mode.frequency));
+            assert!(below * above < 0.0, "{text}: {} {below} {above}", mode.frequency);
+        }
+    }
+}
+
+/// A chain of elements of any length: `2 sqrt(k/J) sin(m pi/2n)`; a controller has room for 16 masses.
+#[test]
+fn modes_take_a_chain_of_any_length() {
+    let n = 60;
+    let pair = "[[element]]\nkind = \"shaft\"\nstiffness = 800.0\n[[element]]\nkind = \"rotor\"\ninertia = 2.0\n";
+    let text = format!("name = \"x\"\n[[element]]\nkind = \"motor\"\ninertia = 2.0\n{}{SETTINGS}", pair.repeat(n - 1));
+    assert!(parse("x.toml", &text).is_err());
+    let machine = cargo_driveline::machine_file::parse_for_modes("x.toml", &text).unwrap();
+    let vibration = cargo_driveline::cli::Vibration::of(&machine).unwrap();
+    assert_eq!(vibration.masses.len(), n);
+    for (m, mode) in (1..).zip(&vibration.resonances) {
+        close(mode.frequency, 40.0 * (f64::from(m) * std::f64::consts::PI / (2 * n) as f64).sin(), 1e-13);
+    }
+    assert_eq!(vibration.resonances.len(), n - 1);
 }

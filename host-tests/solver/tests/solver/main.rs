@@ -3,3 +3,4 @@
 mod chain;
 mod rotor;
 mod train;
+mod vibration;

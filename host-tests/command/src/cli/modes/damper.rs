@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use driveline::machine::{Mode, Resonance};
+use driveline::machine::Resonance;
+use driveline_solver::plant::vibration::Modes;
 use serde::Serialize;
 
 use super::response::Response;
@@ -44,12 +45,15 @@ pub struct Damped {
 }
 
 /// The machine's dampers, each alone.
-pub fn dampers(machine: &MachineFile, modes: &[Mode], response: &Response) -> Vec<Damped> {
+pub fn dampers(machine: &MachineFile, modes: &Modes, response: &Response) -> Vec<Damped> {
     machine.dampers.iter().map(|ring| damped(ring, modes, response)).collect()
 }
 
-fn damped(ring: &DamperRing, modes: &[Mode], response: &Response) -> Damped {
-    let main = ring.kind.mode().map(|mode| Resonance::of(&modes[mode], ring.mass));
+fn damped(ring: &DamperRing, modes: &Modes, response: &Response) -> Damped {
+    let main = ring
+        .kind
+        .mode()
+        .map(|mode| Resonance { inertia: modes.shapes[mode][ring.mass].powi(-2), frequency: modes.omega[mode] });
     let damper = ring.sized(main.as_ref());
     let mass_ratio = main.map(|main| damper.inertia / main.inertia);
     let square = ring.ratio * ring.ratio;

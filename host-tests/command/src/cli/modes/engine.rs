@@ -1,6 +1,7 @@
 //! A piston engine: free forces and moments, and how strongly it excites each mode.
 
-use driveline::machine::{Mode, Shaking, free_forces, free_moments, phasor_sum};
+use driveline::machine::{Shaking, free_forces, free_moments, phasor_sum};
+use driveline_solver::plant::vibration::Modes;
 use nalgebra::Complex;
 use serde::Serialize;
 
@@ -17,8 +18,8 @@ pub struct FreeForces {
     pub speed: f64,
     /// Firing angle of each cylinder (degrees).
     pub firing: Vec<f64>,
-    /// First and second order.
-    pub orders: [Order; 2],
+    /// Those that are not zero, up to the sixth.
+    pub orders: [Order; 4],
 }
 
 /// Free force and moment of one order.
@@ -40,7 +41,7 @@ pub struct Order {
 pub fn free(machine: &MachineFile) -> Option<FreeForces> {
     let engine = machine.engine.as_ref()?;
     let speed = machine.running.as_ref().map_or(machine.limits.speed, |range| range.greatest) / engine.ratio;
-    let units = engine.crank.force_orders(speed);
+    let units = engine.crank.force_orders::<7>(speed);
     let positions = engine.cylinders.iter().map(|cylinder| cylinder.position);
     let middle = positions.sum::<f64>() / engine.cylinders.len() as f64;
     let order = |order: u32, unit: f64| {
@@ -53,7 +54,7 @@ pub fn free(machine: &MachineFile) -> Option<FreeForces> {
         Order { order, force_forward, force_backward, moment_forward, moment_backward }
     };
     let firing = engine.cylinders.iter().map(|cylinder| cylinder.firing.to_degrees()).collect();
-    Some(FreeForces { speed, firing, orders: [order(1, units[0]), order(2, units[1])] })
+    Some(FreeForces { speed, firing, orders: [1, 2, 4, 6].map(|k| order(k, units[k as usize])) })
 }
 
 /// The table of free forces and moments.
@@ -78,23 +79,23 @@ pub fn table(free: &FreeForces) -> Section {
     Section::new("Free forces and moments of the engine", text, table)
 }
 
-/// Adds to the engine's critical speeds what excites them; `damping` (1/s) is that of each mode.
-pub fn excite(critical: &mut [Critical], engine: &Engine, modes: &[Mode], damping: &[f64], response: &Response) {
+/// Adds to the engine's critical speeds what excites them.
+pub fn excite(critical: &mut [Critical], engine: &Engine, modes: &Modes, response: &Response) {
     for critical in critical.iter_mut().filter(|critical| critical.excitation == engine::NAME) {
-        let mode = &modes[critical.mode - 1];
-        let throws: Vec<f64> = engine.at.iter().map(|&mass| mode.shape[mass]).collect();
-        let largest = mode.shape.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        let (omega, shape) = (modes.omega[critical.mode - 1], &modes.shapes[critical.mode - 1]);
+        let throws: Vec<f64> = engine.at.iter().map(|&mass| shape[mass]).collect();
+        let largest = shape.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         let sum = phasor_sum(&engine.cylinders, &throws, critical.order);
         let torque = engine.torque(critical.order, critical.speed / engine.ratio).amplitude();
         critical.phasor_sum = Some(sum / largest);
         critical.torque = Some(torque);
         // damping alone limits the mode
-        if damping[critical.mode - 1] > 0.0 {
-            let mut torques = vec![Complex::from(0.0); modes.len() + 1];
+        if response.network().dissipation(shape) > 0.0 {
+            let mut torques = vec![Complex::from(0.0); shape.len()];
             for (cylinder, &mass) in engine.cylinders.iter().zip(&engine.at) {
                 torques[mass] += Complex::from_polar(torque / engine.ratio, -critical.order * cylinder.firing);
             }
-            critical.shaft_torque = response.shaft_torque(mode.frequency, &torques);
+            critical.shaft_torque = response.shaft_torque(omega, &torques);
         }
     }
 }

@@ -4,13 +4,16 @@ use driveline_report::chart::{Station, mode_shape};
 use driveline_report::format::significant;
 use driveline_report::{Arrangement, Figure};
 
-/// The shapes, each as its frequency (Hz) and the amplitudes of the stations in any scale; none where nothing
+/// Most shapes that are drawn.
+const DRAWN: usize = 24;
+
+/// The shapes of the lowest modes, each as its frequency (Hz) and the amplitudes of the stations in any scale; none where nothing
 /// vibrates.
 pub fn shapes<'m>(stations: &[Station], modes: impl Iterator<Item = (f64, &'m [f64])>) -> Option<Figure> {
     let drawn = |(index, (hz, shape)): (usize, (f64, &[f64]))| {
         mode_shape(stations, shape, &format!("{}. {} Hz", index + 1, significant(hz)))
     };
-    let plots: Vec<String> = modes.enumerate().map(drawn).collect();
+    let plots: Vec<String> = modes.take(DRAWN).enumerate().map(drawn).collect();
     let text = "How far each mass turns, referred to the motor and scaled to one. The area of a disc is the mass's \
         share of the inertia.";
     (!plots.is_empty()).then(|| Figure {

@@ -3,10 +3,12 @@
 use std::f64::consts::TAU;
 
 use driveline::machine::{Match, TwoMass};
+use nalgebra::Complex;
 
 use super::Vibration;
 use super::campbell::diagram;
 use super::figures::{campbell, shapes};
+use super::response::Response as Forced;
 use super::tables::tables;
 use crate::machine_file::MachineFile;
 use driveline_report::chart::{Response, Station, response};
@@ -18,9 +20,6 @@ const POINTS: usize = 1_600;
 
 /// Least damping ratio that a response is drawn with: an undamped peak has no height.
 const DRAWN_DAMPING: f64 = 1e-3;
-
-/// A vibration as the motor sees it: frequency (rad/s), damping ratio, residue (1/(kg m2)).
-type Seen = (f64, f64, f64);
 
 /// The page as HTML.
 pub fn page(machine: &MachineFile, vibration: &Vibration) -> String {
@@ -40,7 +39,7 @@ pub fn page(machine: &MachineFile, vibration: &Vibration) -> String {
     }
     let frequency = frequencies(vibration);
     let stations: Vec<Station> = vibration.masses.iter().map(station).collect();
-    let responses = responses(machine, vibration, &frequency, total);
+    let responses = responses(machine, vibration, &frequency);
     let felt = (!responses.is_empty()).then(|| Figure {
         title: "What the motor feels".to_owned(),
         text: "Motor speed per motor torque: the whole chain, and the two masses that stand for it. Peaks are \
@@ -74,51 +73,44 @@ fn frequencies(vibration: &Vibration) -> Vec<f64> {
         return Vec::new();
     };
     let (from, to) = ((low / TAU / 8.0).log10(), (high.hz * 3.0).log10());
+    // the peaks of many modes lie as near to each other as the points
+    let near = |count: usize| count.min(POINTS / 4);
     let even = (0..POINTS).map(|point| 10f64.powf(from + (to - from) * point as f64 / (POINTS - 1) as f64));
-    let peaks = vibration.resonances.iter().map(|mode| mode.hz);
-    let troughs = vibration.antiresonances.iter().map(|frequency| frequency / TAU);
+    let peaks = vibration.resonances.iter().take(near(vibration.resonances.len())).map(|mode| mode.hz);
+    let troughs =
+        vibration.antiresonances.iter().take(near(vibration.antiresonances.len())).map(|frequency| frequency / TAU);
     let mut all: Vec<f64> = even.chain(peaks).chain(troughs).collect();
     all.sort_by(f64::total_cmp);
     all
 }
 
 /// The whole chain, and the two matches.
-fn responses(machine: &MachineFile, vibration: &Vibration, frequency: &[f64], total: f64) -> Vec<Response> {
+fn responses(machine: &MachineFile, vibration: &Vibration, frequency: &[f64]) -> Vec<Response> {
     if vibration.resonances.is_empty() {
         return Vec::new();
     }
-    let whole: Vec<Seen> =
-        vibration.resonances.iter().map(|mode| (mode.frequency, mode.damping_ratio, mode.residue)).collect();
-    let mut curves = vec![("whole chain".to_owned(), "truth".to_owned(), whole)];
-    let matches = [
-        ("same resonance and antiresonance", Match::ResonanceAntiresonance),
-        ("first mode kept exactly", Match::ModalTruncation),
-    ];
+    let least = vibration.damped.iter().map(|one| one.damping_ratio).fold(f64::INFINITY, f64::min);
+    let drawn = if least > DRAWN_DAMPING && least.is_finite() { 0.0 } else { DRAWN_DAMPING };
+    let shift = |hz: &f64| Complex::new(drawn, 1.0) * (hz * TAU);
+    let shifts: Vec<Complex<f64>> = frequency.iter().map(shift).collect();
+    let whole = Forced::of(machine).receptances(0, &shifts);
+    let amplitude = whole.iter().zip(&shifts).map(|(angle, shift)| angle * shift.norm()).collect();
+    let mut curves = vec![Response { name: "whole chain".to_owned(), class: "truth".to_owned(), amplitude }];
     // Two masses stand for themselves.
-    for (index, (name, by)) in matches.into_iter().enumerate().filter(|_| vibration.masses.len() > 2) {
+    let matches = vibration.reductions.iter().zip([Match::ResonanceAntiresonance, Match::ModalTruncation]);
+    for (index, (reduction, by)) in matches.enumerate().filter(|_| vibration.masses.len() > 2) {
         if let Ok(two) = machine.reduce(by) {
-            curves.push((name.to_owned(), format!("s{index}"), vec![seen(&two)]));
+            let amplitude = shifts.iter().map(|shift| mobility(*shift, &two)).collect();
+            curves.push(Response { name: reduction.by.clone(), class: format!("s{index}"), amplitude });
         }
     }
-    let response = |(name, class, modes): (String, String, Vec<Seen>)| {
-        let amplitude = frequency.iter().map(|hz| mobility(hz * TAU, total, &modes)).collect();
-        Response { name, class, amplitude }
-    };
-    curves.into_iter().map(response).collect()
+    curves
 }
 
-fn seen(two: &TwoMass) -> Seen {
-    (two.resonance(), two.damping_ratio(), two.load_inertia / (two.motor_inertia * two.total_inertia()))
-}
-
-/// Size of the motor's speed per torque: `|1/(J s) + sum r s/(s^2 + 2 z w s + w^2)|` at `s = j omega`.
-fn mobility(omega: f64, total: f64, modes: &[Seen]) -> f64 {
-    let (mut re, mut im) = (0.0, -1.0 / (total * omega));
-    for &(w, damping, residue) in modes {
-        let (a, b) = (w * w - omega * omega, 2.0 * damping.max(DRAWN_DAMPING) * w * omega);
-        let square = a * a + b * b;
-        re += residue * omega * b / square;
-        im += residue * omega * a / square;
-    }
-    f64::hypot(re, im)
+/// Size of the motor's speed per torque of two masses at a shift `s`: `(J s^2 + d s + k)` of the load over the
+/// characteristic polynomial.
+fn mobility(shift: Complex<f64>, two: &TwoMass) -> f64 {
+    let coupling = shift * two.damping + two.stiffness;
+    let [motor, load] = [two.motor_inertia, two.load_inertia].map(|inertia| shift * shift * inertia);
+    (shift * (load + coupling) / (motor * load + coupling * (motor + load))).norm()
 }

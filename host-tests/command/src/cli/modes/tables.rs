@@ -7,7 +7,10 @@ use driveline_report::{Section, Table};
 
 use super::campbell::{barred_speeds, critical};
 use super::chain::{KEPT, Leaving, Reduction, Vibration};
-use super::{damper, engine};
+use super::{damped, damper, engine};
+
+/// Most masses whose amplitudes have a column.
+const SHOWN: usize = 24;
 
 /// The tables as title, explanation and table: for the terminal and the page alike.
 pub fn tables(vibration: &Vibration) -> Vec<Section> {
@@ -31,39 +34,42 @@ pub fn tables(vibration: &Vibration) -> Vec<Section> {
     if vibration.resonances.is_empty() {
         return all;
     }
+    // a line for each mode is read, a column for each of many masses is not
+    let shown = if vibration.masses.len() <= SHOWN { &*vibration.masses } else { &[] };
     let mut modes = Table::new(
-        ["mode", "Hz", "rad/s", "damping ratio", "antiresonance Hz"]
+        ["mode", "Hz", "rad/s", "antiresonance Hz"]
             .map(String::from)
             .into_iter()
-            .chain(vibration.masses.iter().map(|mass| mass.name.clone())),
+            .chain(shown.iter().map(|mass| mass.name.clone())),
     );
     for (index, mode) in vibration.resonances.iter().enumerate() {
         let held = vibration.antiresonances.get(index).copied().unwrap_or(f64::NAN);
-        let numbers = [mode.hz, mode.frequency, mode.damping_ratio, held / TAU].map(significant);
-        let shape = mode.shape.iter().map(|value| format!("{value:+.3}"));
+        let numbers = [mode.hz, mode.frequency, held / TAU].map(significant);
+        let shape = mode.shape.iter().take(shown.len()).map(|value| format!("{value:+.3}"));
         modes.row([(index + 1).to_string()].into_iter().chain(numbers).chain(shape));
     }
-    let mut text =
-        "Frequencies of the free machine, and with the motor locked; amplitudes of the masses, the largest 1."
-            .to_owned();
-    if vibration.resonances.iter().any(|mode| mode.damping_ratio >= 1.0) {
-        text.push_str(" With a damping ratio of 1 or more a mode decays without vibration.");
-    }
+    let shapes = match shown {
+        [] => "shapes of more than 24 masses with `--json`.",
+        _ => "amplitudes of the masses, the largest 1.",
+    };
+    let text = format!("Frequencies of the free machine, and with the motor locked; {shapes}");
     all.push(Section::new("Frequencies and shapes", text, modes));
+    all.extend(damped::table(&vibration.damped, "With all dampings, gaps closed."));
     all.extend(critical(&vibration.critical));
     all.extend(barred_speeds(&vibration.barred));
     all.extend(vibration.engine.as_ref().map(engine::table));
     all.extend(damper::table(&vibration.dampers));
-    all.push(reductions(&vibration.reductions));
+    all.extend(reductions(&vibration.reductions));
     if !vibration.sensitivity.is_empty() {
         all.push(sensitivity(&vibration.sensitivity));
     }
     all
 }
 
-fn reductions(reductions: &[Reduction]) -> Section {
+fn reductions(reductions: &[Reduction]) -> Option<Section> {
     let mut table = Table::new([
         "two masses by",
+        "mode",
         "motor kg m²",
         "load kg m²",
         "stiffness N m/rad",
@@ -80,13 +86,13 @@ fn reductions(reductions: &[Reduction]) -> Section {
         let errors = [r.resonance_error, r.antiresonance_error, r.compliance_error].map(signed);
         let next = r.next_mode.map_or_else(|| "none".to_owned(), |next| significant(next / TAU));
         let rest = [next, significant(r.next_share), percent(r.worst)];
-        table.row([r.by.clone()].into_iter().chain(sizes).chain(errors).chain(rest));
+        table.row([r.by.clone(), r.mode.to_string()].into_iter().chain(sizes).chain(errors).chain(rest));
     }
-    let text = "Errors of the first resonance, the first antiresonance and the static compliance at the motor; the \
-        lowest mode \
+    let text = "The mode that each stands for, with the errors of its resonance, of its antiresonance and of the \
+                static compliance at the motor; the lowest mode \
                 left out and its share at the motor (1 equals the rigid-body mode); a bound of the error of the \
                 motor's speed after an impact, over its first step.";
-    Section::new("Reduction to two masses", text, table)
+    (!reductions.is_empty()).then(|| Section::new("Reduction to two masses", text, table))
 }
 
 fn sensitivity(parts: &[Leaving]) -> Section {

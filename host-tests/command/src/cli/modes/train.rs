@@ -5,13 +5,13 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 
 use super::campbell::{Critical, barred, barred_speeds, critical, critical_speeds, diagram};
+use super::damped::{self, DampedVibration};
 use super::figures::{campbell, shapes};
 use crate::cli::Failure;
 use crate::machine_file::TrainFile;
 use driveline_report::chart::Station;
 use driveline_report::format::significant;
 use driveline_report::{Fact, Section, Sheet, Table};
-use driveline_solver::plant::train::Decay;
 
 /// The vibrations of a train, every part on its own shaft.
 #[derive(Clone, Debug, Serialize)]
@@ -44,19 +44,6 @@ pub struct TrainResonance {
     pub energy: Vec<f64>,
 }
 
-/// A vibration with damping about standstill, or a decay without vibration: the eigenvalue `-decay + i frequency`.
-#[derive(Clone, Debug, Serialize)]
-pub struct DampedVibration {
-    /// Decay (1/s); below zero where the motion grows.
-    pub decay: f64,
-    /// Frequency (rad/s); 0 of a decay.
-    pub frequency: f64,
-    /// Frequency (Hz).
-    pub hz: f64,
-    /// Damping ratio.
-    pub damping_ratio: f64,
-}
-
 impl TrainVibration {
     /// Of a train with every link in contact at its mean stiffness.
     ///
@@ -65,14 +52,6 @@ impl TrainVibration {
     pub fn of(file: &TrainFile) -> Result<Self, Failure> {
         let modes = file.train.modes().map_err(|error| Failure::failed(error.to_string()))?;
         let decays = file.train.decays().map_err(|error| Failure::failed(error.to_string()))?;
-        let damped = |decay: &Decay| DampedVibration {
-            decay: decay.decay,
-            frequency: decay.omega,
-            hz: decay.omega / TAU,
-            damping_ratio: decay.damping_ratio(),
-        };
-        // of a train without damping rounding alone is left of the decays
-        let is_damped = decays.iter().any(|decay| decay.damping_ratio().abs() > 1e-9);
         let inertia = file.train.inertias();
         let elastic: Vec<usize> = (modes.rigid_motions()..modes.omega.len()).collect();
         let resonance = |&i: &usize| {
@@ -87,7 +66,7 @@ impl TrainVibration {
             coordinates: file.coordinates.clone(),
             rigid_motions: modes.rigid_motions(),
             resonances: elastic.iter().map(resonance).collect(),
-            damped: if is_damped { decays.iter().map(damped).collect() } else { Vec::new() },
+            damped: DampedVibration::all(&decays),
             barred: file.running.as_ref().map_or_else(Vec::new, |range| barred(&critical, range.greatest)),
             critical,
         })
@@ -110,17 +89,9 @@ impl TrainVibration {
         );
         let modes = Section::new("Frequencies and shapes", text, table);
         let speeds = critical(&self.critical).into_iter().chain(barred_speeds(&self.barred));
-        [modes].into_iter().chain(self.damped_table()).chain(speeds).collect()
-    }
-
-    fn damped_table(&self) -> Option<Section> {
-        let mut table = Table::new(["Hz", "rad/s", "decay 1/s", "damping ratio"]);
-        for one in &self.damped {
-            table.row([one.hz, one.frequency, one.decay, one.damping_ratio].map(significant));
-        }
-        let text = "About standstill, every link in contact at its mean stiffness; of the torques, falling lines damp. \
-                    A decay without vibration has no frequency.";
-        (!self.damped.is_empty()).then(|| Section::new("Damped vibrations", text, table))
+        let about =
+            "About standstill, every link in contact at its mean stiffness; of the torques, falling lines damp.";
+        [modes].into_iter().chain(damped::table(&self.damped, about)).chain(speeds).collect()
     }
 
     /// The page as HTML.

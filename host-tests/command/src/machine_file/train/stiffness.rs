@@ -9,6 +9,9 @@ const STIFFEST: f64 = 1e6;
 
 /// Where a train is too stiff for a run of so many seconds: the place, what was found and what was expected.
 pub(crate) fn too_stiff(motion: &Motion, time: f64) -> Option<(Place, String, String)> {
+    if time == 0.0 {
+        return None;
+    }
     let over = motion.rate() * time / STIFFEST;
     if over <= 1.0 {
         return None;

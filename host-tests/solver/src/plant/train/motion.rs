@@ -1,6 +1,6 @@
 //! The running train: state, mode, and its way through time.
 
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::DMatrix;
 
 use super::leap::Leap;
 use super::pins::Pinning;
@@ -11,6 +11,7 @@ use super::stretch::Stretch;
 use super::{Coordinate, Friction, Source, Train, Variation, coupling};
 use crate::plant::error::PlantError;
 use crate::plant::event::Event;
+use crate::plant::vibration::{Network, Spring};
 
 /// Product of the fastest rate and a stretch: `1.5^24/24!` = 3e-20 is left out.
 const REACH: f64 = 1.5;
@@ -253,7 +254,6 @@ pub(super) fn pins_of(train: &Train) -> Vec<Pinning> {
 /// Bound of the rates of a train, 1/s: the highest natural frequency with every link in contact at its stiffest, the
 /// highest rate of damping, and how fast stiffnesses and torques swing.
 fn fastest(train: &Train) -> f64 {
-    let n = train.coordinates.len();
     // of a gear the least that either direction feels, over the most that it makes of what is behind it
     let least = |c: &Coordinate| {
         c.gear.map_or(c.inertia, |gear| {
@@ -261,32 +261,27 @@ fn fastest(train: &Train) -> f64 {
             (gear.front + least * (c.inertia - gear.front)) * gear.efficiency
         })
     };
-    let inertia: Vec<f64> = train.coordinates.iter().map(|c| least(c).sqrt()).collect();
-    let (mut k, mut d) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));
+    let (mut springs, mut dampers) = (Network::default(), Network::default());
     let mut swing = 0.0_f64;
-    for link in &train.links {
-        let loss = (1.0 / link.efficiency).max(link.back_efficiency.abs());
-        for &(a, one) in &link.terms {
-            for &(b, other) in &link.terms {
-                let share = loss * one * other / (inertia[a] * inertia[b]);
-                k[(a, b)] += share * link.stiffest();
-                d[(a, b)] += share * link.damping;
-            }
-        }
-        if let Some(variation) = &link.variation {
-            swing = swing.max(variation.bounds(link.stiffness).1);
-        }
-    }
     for (j, coordinate) in train.coordinates.iter().enumerate() {
         let slope: f64 = coordinate
             .sources
             .iter()
             .map(|source| if let Source::Line { slope, .. } = source { slope.abs() } else { 0.0 })
             .sum();
-        d[(j, j)] += (coordinate.viscous + slope) / inertia[j].powi(2);
+        springs.coordinate(least(coordinate), 0.0);
+        dampers.coordinate(least(coordinate), 0.0);
+        dampers.link(Spring::ground(j, coordinate.viscous + slope));
         swing = coordinate.sources.iter().map(Source::rate).fold(swing, f64::max);
     }
-    let most = |matrix: DMatrix<f64>| SymmetricEigen::new(matrix).eigenvalues.max().max(0.0);
+    for link in &train.links {
+        let loss = (1.0 / link.efficiency).max(link.back_efficiency.abs());
+        springs.link(Spring::new(&link.terms, loss * link.stiffest()));
+        dampers.link(Spring::new(&link.terms, loss * link.damping));
+        if let Some(variation) = &link.variation {
+            swing = swing.max(variation.bounds(link.stiffness).1);
+        }
+    }
     let least = coupling::least(train).max(1e-3);
-    (most(k) / least).sqrt() + most(d) / least + swing
+    springs.highest() / least.sqrt() + dampers.highest().powi(2) / least + swing
 }

@@ -1,11 +1,17 @@
 //! Rank of the links' terms, and the motions that strain none of them.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 /// Share of a row's largest term below which a remainder is rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// The links' terms, reduced by Gauss-Jordan elimination with full pivoting.
-pub(super) struct Elimination {
-    rows: Vec<Vec<f64>>,
+/// Share of a row's largest entry that its pivot has at least.
+const PIVOT: f64 = 0.1;
+
+/// The links' terms, reduced by sparse elimination: the shortest row first, and of it the shortest column.
+pub(in crate::plant) struct Elimination {
+    /// Each without the coordinates that the rows before it are solved for, its own with the factor 1.
+    rows: Vec<BTreeMap<usize, f64>>,
     /// The coordinate that each row is solved for.
     pivots: Vec<usize>,
     coordinates: usize,
@@ -14,38 +20,52 @@ pub(super) struct Elimination {
 impl Elimination {
     /// Of links with these terms between so many coordinates.
     pub fn of<'a>(links: impl Iterator<Item = &'a [(usize, f64)]>, coordinates: usize) -> Self {
-        let row = |terms: &[(usize, f64)]| {
+        let row = |terms: &[(usize, f64)]| -> BTreeMap<usize, f64> {
             let largest = terms.iter().fold(0.0_f64, |most, term| most.max(term.1.abs()));
-            let mut row = vec![0.0; coordinates];
-            for &(at, share) in terms {
-                row[at] = share / largest;
-            }
-            row
+            terms.iter().map(|&(at, share)| (at, share / largest)).collect()
         };
-        let mut rest: Vec<Vec<f64>> = links.map(row).collect();
-        let mut found = Elimination { rows: Vec::new(), pivots: Vec::new(), coordinates };
-        while let Some((at, pivot)) = found.pivot(&rest) {
-            let mut row = rest.swap_remove(at);
-            let size = row[pivot];
-            row.iter_mut().for_each(|x| *x /= size);
-            for other in found.rows.iter_mut().chain(&mut rest) {
-                let share = other[pivot];
-                if share != 0.0 {
-                    other.iter_mut().zip(&row).for_each(|(x, y)| *x -= share * y);
-                    other[pivot] = 0.0;
+        let mut rest: Vec<BTreeMap<usize, f64>> = links.map(row).collect();
+        let mut columns = vec![BTreeSet::new(); coordinates];
+        for (i, row) in rest.iter().enumerate() {
+            row.keys().for_each(|&at| {
+                columns[at].insert(i);
+            });
+        }
+        let mut waiting: BTreeSet<(usize, usize)> = rest.iter().enumerate().map(|(i, row)| (row.len(), i)).collect();
+        let mut found = Self { rows: Vec::new(), pivots: Vec::new(), coordinates };
+        while let Some((_, i)) = waiting.pop_first() {
+            let mut row = std::mem::take(&mut rest[i]);
+            row.keys().for_each(|at| {
+                columns[*at].remove(&i);
+            });
+            let largest = row.values().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let large = row.iter().filter(|(_, x)| x.abs() >= PIVOT * largest);
+            let Some((&pivot, &size)) = large.min_by_key(|(at, _)| columns[**at].len()).filter(|_| largest > ROUNDING)
+            else {
+                continue;
+            };
+            row.values_mut().for_each(|x| *x /= size);
+            for other in std::mem::take(&mut columns[pivot]) {
+                let changed = &mut rest[other];
+                waiting.remove(&(changed.len(), other));
+                let share = changed.remove(&pivot).unwrap_or(0.0);
+                for (&at, x) in row.iter().filter(|(at, _)| **at != pivot) {
+                    let entry = changed.entry(at).or_insert(0.0);
+                    let before = entry.abs().max((share * x).abs());
+                    *entry -= share * x;
+                    if entry.abs() <= f64::EPSILON * before {
+                        changed.remove(&at);
+                        columns[at].remove(&other);
+                    } else {
+                        columns[at].insert(other);
+                    }
                 }
+                waiting.insert((changed.len(), other));
             }
             found.rows.push(row);
             found.pivots.push(pivot);
         }
         found
-    }
-
-    /// The largest entry that is left.
-    fn pivot(&self, rest: &[Vec<f64>]) -> Option<(usize, usize)> {
-        let entries = rest.iter().enumerate().flat_map(|(i, row)| row.iter().enumerate().map(move |(j, x)| (i, j, x)));
-        let largest = entries.max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()))?;
-        (largest.2.abs() > ROUNDING).then_some((largest.0, largest.1))
     }
 
     /// Links that are independent.
@@ -56,12 +76,14 @@ impl Elimination {
     /// The motions that strain no link, each coordinate times its root of the inertia; of length one and orthogonal.
     pub fn free_motions(&self, root: &[f64]) -> Vec<Vec<f64>> {
         let mut motions: Vec<Vec<f64>> = Vec::new();
-        for free in (0..self.coordinates).filter(|j| !self.pivots.contains(j)) {
+        let solved: BTreeSet<usize> = self.pivots.iter().copied().collect();
+        for free in (0..self.coordinates).filter(|j| !solved.contains(j)) {
             let mut motion = vec![0.0; self.coordinates];
-            motion[free] = root[free];
-            for (row, &pivot) in self.rows.iter().zip(&self.pivots) {
-                motion[pivot] = -row[free] * root[pivot];
+            motion[free] = 1.0;
+            for (row, &pivot) in self.rows.iter().zip(&self.pivots).rev() {
+                motion[pivot] = -row.iter().filter(|(at, _)| **at != pivot).map(|(&at, x)| x * motion[at]).sum::<f64>();
             }
+            motion.iter_mut().zip(root).for_each(|(x, root)| *x *= root);
             // twice: once leaves what cancellation left
             for _ in 0..2 {
                 for other in &motions {
