@@ -72,10 +72,10 @@ fn draw(random: &mut Random) -> Drawn {
     // Rated speed below a quarter of a turn in a tick; its limit accelerates to that in 3 to 30,000 ticks.
     let speed = random.decades(-3.0, -0.2) / period;
     let torque_limit = (motor + load) * speed / (period * random.decades(0.5, 4.5));
-    let bandwidth = if random.word() % 8 == 0 { random.between(1.5, 6.0) } else { random.between(0.05, 0.95) };
+    let bandwidth = if random.word().is_multiple_of(8) { random.between(1.5, 6.0) } else { random.between(0.05, 0.95) };
     let mut tuning = SpeedLoopTuning::with_bandwidth(&machine, bandwidth.min(0.95));
     tuning.bandwidth = bandwidth;
-    if random.word() % 4 == 0 {
+    if random.word().is_multiple_of(4) {
         tuning =
             SpeedLoopTuning { bandwidth, damping: random.decades(-1.0, 1.5), shaft_damping: random.decades(-2.0, 0.5) };
     }
@@ -355,7 +355,7 @@ fn try_one(seed: u64, tally: &mut Tally) {
         let wild = [0.0, -0.0, limit, -limit, 1.6 * limit, -1.6 * limit, 1e-40, f64::NAN, f64::INFINITY, -1e300];
         let (torque, missed) = (random.one_of(wild), random.word() as u32 % 12);
         let setpoint = random.one_of([drawn.speed, -drawn.speed, f64::NAN, f64::NEG_INFINITY, 1e30, 0.0]);
-        let angle = if random.word() % 2 == 0 { random.word() as u32 } else { plant.word(drawn.encoder) };
+        let angle = if random.word().is_multiple_of(2) { random.word() as u32 } else { plant.word(drawn.encoder) };
         let act = random.word() % 7;
         for drive in &mut drives {
             let (torque, _) = match act {
