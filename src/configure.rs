@@ -83,9 +83,10 @@
 //! #     Drive::<f32, TwoMassObserver<f32>, (), SpeedLoop<f32>>::configure::<Lift>();
 //! ```
 //!
-//! Observers of two masses, of one mass and of backlash are tested, with [`SpeedLoop`](crate::governor::SpeedLoop) or
-//! with a [`SpeedGovernor`](crate::governor::SpeedGovernor) of [`GainSource::SpeedLoop`] that filters nothing: linear,
-//! with the gap closed. A part of one's own that acts on the loop names [`Configure::LOOP`].
+//! The gains of a speed loop are tested with the observer in the loop: linear, with the gap closed, a crank with its
+//! mean inertia. [`GainSource::Governor`] is tested by its frequency response, with its actuator, its compensation and
+//! its average of the speed. A droop, which takes from the integral alone, is left out. A part of one's own that acts
+//! on the loop names [`Configure::LOOP`].
 //!
 //! # One file for several drives
 //! A machine that is driven in several ways is one type with a parameter, or several types that share constants:
@@ -162,7 +163,7 @@ pub trait Configure<M: Machine, N: Number> {
     /// The constants.
     const CONFIG: Self::Config;
     /// This part in the speed loop, for the test of the loop's stability.
-    const LOOP: LoopPart = LoopPart::None;
+    const LOOP: LoopPart = LoopPart::NONE;
 }
 
 /// Nothing: a part that is left out.

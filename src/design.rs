@@ -62,6 +62,7 @@ pub use flywheel::{energy_swing, flywheel_inertia};
 pub use governor::{Actuator, GovernorDesign, LoadFeedForward, VirtualInertia};
 pub use input_shaper::InputShaperDesign;
 pub use kalman::Kalman;
+pub use late_loop::Averaging;
 pub use margins::Margins;
 pub use matrix::Matrix;
 pub use natural_damping::NaturalDamping;

@@ -184,19 +184,18 @@ where
     }
 
     /// One tick against a closed brake: the machine stands still, the drive gives a constant torque, the shaft is taken
-    /// to carry it, and the next [`Drive::tick`] starts from there, within the governor's limit. A torque that is NaN
-    /// or beyond the sample's limit counts as zero and raises [`Faults::SETPOINT`]. A governor that has tripped holds
-    /// with none.
+    /// to carry it, and the next [`Drive::tick`] starts from there. The torque is limited by the governor, without its
+    /// slew. One that is NaN or beyond the sample's limit counts as zero and raises [`Faults::SETPOINT`]. A governor
+    /// that has tripped holds with none.
     pub fn hold(&mut self, config: &ConfigOf<Self>, angle: u32, torque: N) -> Command<N> {
         let mut command = Command { torque, faults: Faults::NONE };
         if torque.exceeds(config.limits.torque) {
             command = Command { torque: N::ZERO, faults: Faults::SETPOINT };
         }
-        if !self.governor.permits() {
-            command.torque = N::ZERO;
-        }
-        self.observer.restart(&config.observer, angle, command.torque, N::ZERO);
         self.fluctuation.disturb();
+        // Limited at standstill, then held with the permitted torque.
+        command.torque = self.governor.start(&config.governor, &Estimate::default(), command.torque);
+        self.observer.restart(&config.observer, angle, command.torque, N::ZERO);
         self.governor.start(&config.governor, &self.estimate(config), command.torque);
         self.commanded = command.torque;
         self.coasted = SEAL;

@@ -1,8 +1,8 @@
 //! Speed governors: from estimate and setpoint to the torque command.
 //!
 //! # Terms
-//! *Setpoint*: the commanded motor speed. *Anti-windup*: back-calculation that keeps the integral from growing while
-//! the torque is limited. *Active damping*: motor torque proportional and opposite to the twist rate. *Droop*: fall of
+//! *Setpoint*: the commanded motor speed. *Automatic reset*: the integral follows the limited torque, and so does not
+//! wind up. *Active damping*: motor torque proportional and opposite to the twist rate. *Droop*: fall of
 //! the setpoint with the load. *Isochronous*: without droop. *Trip*: a stop that is latched until it is reset.
 //! *Load sharing*: the division of one torque among several motors. *Torque bias* (preload): torque of some of them
 //! against the others, so that no pinion leaves its flank.
@@ -76,9 +76,9 @@ pub trait Governor<N: Number>: Default {
     /// The torque for the tick that begins.
     fn command(&mut self, config: &Self::Config, estimate: &Estimate<N>) -> N;
 
-    /// Starts anew from the present speed and torque (bumpless transfer); the
-    /// setpoint is zero.
-    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N);
+    /// Starts anew from the present speed (bumpless transfer), with the permitted torque nearest to this one, which it
+    /// returns; a tripped drive permits none. The setpoint is zero.
+    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) -> N;
 
     /// Bumpless transfer from the constants `from` to `to`, between two ticks, at the present estimate: the gains
     /// change, the torque does not.
@@ -88,12 +88,6 @@ pub trait Governor<N: Number>: Default {
     #[inline(always)]
     fn angle_lost(&mut self, config: &Self::Config, estimate: &Estimate<N>) {
         self.start(config, estimate, N::ZERO);
-    }
-
-    /// Whether torque may be commanded at all: a tripped drive may not even hold.
-    #[inline(always)]
-    fn permits(&self) -> bool {
-        true
     }
 }
 
@@ -111,5 +105,7 @@ impl<N: Number> Governor<N> for () {
         N::ZERO
     }
 
-    fn start(&mut self, _config: &(), _estimate: &Estimate<N>, _torque: N) {}
+    fn start(&mut self, _config: &(), _estimate: &Estimate<N>, torque: N) -> N {
+        torque
+    }
 }

@@ -61,9 +61,9 @@ pub trait Number:
     fn fraction(part: u32) -> Self;
     /// Limited to twice the base in fixed point; floats are unchanged.
     fn saturated(self) -> Self;
-    /// In fixed point 1 where any of three saturated states is beyond its base, 0 where not; always 0 for floats.
-    fn beyond_base(states: [Self; 3]) -> u32;
-    /// `limit` where the number is above it, `-limit` where it is below that.
+    /// In fixed point 1 where any of these saturated states is beyond its base, 0 where not; always 0 for floats.
+    fn beyond_base<const K: usize>(states: [Self; K]) -> u32;
+    /// Limited to `limit`, which is not negative, in either direction; a NaN gives the limit.
     fn limited(self, limit: Self) -> Self;
     /// Whether the magnitude is beyond `limit`, which is not negative, or not a number at all.
     fn exceeds(self, limit: Self) -> bool;
@@ -77,8 +77,9 @@ pub trait Number:
     fn less_turn(self, turn: Self) -> Self;
     /// An angle difference as the operand of the correction gains.
     fn innovation_operand(self) -> Self;
-    /// A difference of speeds or torques as the operand of a governor's gain: limited so that a gain cannot overflow.
-    fn gain_operand(self) -> Self;
+    /// A difference of speeds times a governor's gain ([`GAIN_SHIFT`]), for what is not summed over the ticks. In fixed
+    /// point limited to so many bases, a power of two, with a resolution of 2^-23 of the base.
+    fn gained<const BASES: i32>(self, gain: Self::Coefficient) -> Self;
 
     /// The speed at which the motor turns by this angle difference in a tick; limited to four times the base in fixed
     /// point.

@@ -93,7 +93,7 @@ pub trait Observer<N: Number>: Sized {
     /// The last accepted angle, 2^32 per turn.
     fn angle(&self) -> u32;
 
-    /// [`Number::beyond_base`] of the motor's speed, the twist or shaft torque, and the load torque.
+    /// [`Number::beyond_base`] of all states.
     fn beyond_base(&self) -> u32;
 
     /// One tick with a plausible angle.

@@ -2,7 +2,8 @@
 
 use super::{Configure, GainSource, LoopPart, Machine};
 use crate::design::{
-    BacklashTakeUpDesign, BacklashTakeUpTuning, BarredSpeeds, InputShaperDesign, SpeedLoopDesign, TorqueCurve,
+    Averaging, BacklashTakeUpDesign, BacklashTakeUpTuning, BarredSpeeds, InputShaperDesign, SpeedLoopDesign,
+    TorqueCurve,
 };
 use crate::governor::{
     AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, BacklashTakeUp,
@@ -90,13 +91,15 @@ where
         sequence: U::CONFIG,
         filter: V::CONFIG,
     };
-    const LOOP: LoopPart = match &M::GAINS {
-        GainSource::SpeedLoop(design) => {
+    const LOOP: LoopPart = {
+        let gains = match M::GAINS {
             // the compensation brings the damping, and has no lag
-            let design = SpeedLoopDesign { damping: 0.0, damping_lag: 0.0, ..*design };
-            LoopPart::SpeedLoop(design).and(&F::LOOP).and(&L::LOOP).and(&V::LOOP)
-        }
-        GainSource::Governor(_) => LoopPart::Unknown,
+            GainSource::SpeedLoop(design) => {
+                GainSource::SpeedLoop(SpeedLoopDesign { damping: 0.0, damping_lag: 0.0, ..design })
+            }
+            gains => gains,
+        };
+        LoopPart { gains: Some(gains), ..LoopPart::NONE }.and(&F::LOOP).and(&L::LOOP).and(&V::LOOP)
     };
 }
 
@@ -104,7 +107,12 @@ where
 impl<M: Machine, N: Number> Configure<M, N> for CycleAverage<N> {
     type Config = ();
     const CONFIG: () = ();
-    const LOOP: LoopPart = LoopPart::Unknown;
+    // at rated speed: slower than that the cycle lasts longer
+    const LOOP: LoopPart = {
+        let turns = M::CYCLE.turns as f64 / M::CYCLE.cycles as f64;
+        let averaging = Averaging::Cycle(core::f64::consts::TAU * turns / M::RATING.speed);
+        LoopPart { averaging, ..LoopPart::NONE }
+    };
 }
 
 /// None: its time constant is that of the loop's gains.
@@ -138,11 +146,14 @@ macro_rules! governors {
             [K] HasBarredSpeeds<K>, Barred<K> => BarredConfig<$number, K>,
                 BarredConfig::<$number, K>::new(&M::BARRED, M::QUICK_RAMP, M::PERIOD, $bases);
             [] Machine, FeedForward => FeedForwardConfig<$number>,
-                FeedForwardConfig::<$number>::new(M::GAINS.governor().share, $bases);
+                FeedForwardConfig::<$number>::new(M::GAINS.governor().share, $bases),
+                LoopPart { forward: M::GAINS.governor().share, ..LoopPart::NONE };
             [] Machine, AccelerationFeedback => AccelerationFeedbackConfig<$number>,
-                AccelerationFeedbackConfig::<$number>::new(M::GAINS.governor(), $bases);
+                AccelerationFeedbackConfig::<$number>::new(M::GAINS.governor(), $bases),
+                LoopPart { acceleration: M::GAINS.governor().acceleration, ..LoopPart::NONE };
             [] Machine, ActiveDamping => ActiveDampingConfig<$number>,
-                ActiveDampingConfig::<$number>::new(&M::SPEED_LOOP, $bases), LoopPart::Damping(M::SPEED_LOOP.damping);
+                ActiveDampingConfig::<$number>::new(&M::SPEED_LOOP, $bases),
+                LoopPart { damping: M::SPEED_LOOP.damping, ..LoopPart::NONE };
             [] Machine, SymmetricLimit => SymmetricLimitConfig<$number>,
                 SymmetricLimitConfig::<$number>::new(M::RATING.torque_limit, $bases);
             [] Machine, TorqueRange => TorqueRangeConfig<$number>,
@@ -156,7 +167,8 @@ macro_rules! governors {
                 LoadSharingConfig::<$number>::new(&M::SHARING, M::PERIOD, $bases)
             };
             [K] Machine, MovingAverage<$number, K> => MovingAverageConfig<$number, K>,
-                MovingAverageConfig::<$number, K>::of_ticks(), LoopPart::Unknown;
+                MovingAverageConfig::<$number, K>::of_ticks(),
+                LoopPart { averaging: Averaging::Ticks(K as u32), ..LoopPart::NONE };
         }
 
         impl<M: Machine, F> Configure<M, $number> for SpeedLoop<$number, F>
@@ -164,7 +176,7 @@ macro_rules! governors {
             F: LoopFilter<$number, Config: Copy> + Configure<M, $number, Config = <F as LoopFilter<$number>>::Config>,
         {
             type Config = SpeedLoopConfig<$number, <F as LoopFilter<$number>>::Config>;
-            const LOOP: LoopPart = LoopPart::SpeedLoop(M::SPEED_LOOP);
+            const LOOP: LoopPart = LoopPart { gains: Some(GainSource::SpeedLoop(M::SPEED_LOOP)), ..LoopPart::NONE };
             const CONFIG: Self::Config = {
                 assert!(
                     <F as LoopFilter<$number>>::LAGS_DAMPING == (M::SPEED_LOOP.damping_lag > 0.0),
@@ -215,7 +227,8 @@ macro_rules! governors {
                 <L as Configure<M, $number>>::CONFIG,
                 $bases,
             );
-            const LOOP: LoopPart = LoopPart::Damping(M::TAKE_UP.damping).and(&<L as Configure<M, $number>>::LOOP);
+            const LOOP: LoopPart =
+                LoopPart { damping: M::TAKE_UP.damping, ..LoopPart::NONE }.and(&<L as Configure<M, $number>>::LOOP);
         }
     };
 }

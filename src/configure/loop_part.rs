@@ -1,50 +1,93 @@
 //! The parts of a drive in its speed loop, and the test of its stability.
 
-use super::Machine;
-use crate::design::{LoopObserver, RigidDesign, SpeedLoopDesign, TwoMassDesign};
+use super::{GainSource, Machine};
+use crate::design::{Actuator, Averaging, GovernorDesign, LoopObserver, RigidDesign, SpeedLoopDesign, TwoMassDesign};
 
-/// A part in the speed loop.
+/// A part in the speed loop, by what it brings to the loop's response.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-// A value of a constant evaluation, never stored.
-#[allow(clippy::large_enum_variant)]
-pub enum LoopPart {
-    /// It changes nothing in the loop.
-    None,
-    /// It changes the loop in a way that the test does not model.
-    Unknown,
+pub struct LoopPart {
     /// An observer of two masses.
-    TwoMass(TwoMassDesign),
+    pub two_mass: Option<TwoMassDesign>,
     /// An observer of one mass.
-    Rigid(RigidDesign),
-    /// A governor.
-    SpeedLoop(SpeedLoopDesign),
+    pub rigid: Option<RigidDesign>,
+    /// Gains of a governor.
+    pub gains: Option<GainSource>,
     /// A torque against the twist rate (N m s/rad), added to the governor's.
-    Damping(f64),
+    pub damping: f64,
+    /// Share of the load torque that is fed forward.
+    pub forward: f64,
+    /// Torque against the acceleration, per torque that accelerates the load.
+    pub acceleration: f64,
+    /// Average of the speed.
+    pub averaging: Averaging,
 }
 
 impl LoopPart {
+    /// It changes nothing in the loop.
+    pub const NONE: Self = Self {
+        two_mass: None,
+        rigid: None,
+        gains: None,
+        damping: 0.0,
+        forward: 0.0,
+        acceleration: 0.0,
+        averaging: Averaging::None,
+    };
+
     /// Two parts of a governor together.
     pub(super) const fn and(&self, other: &Self) -> Self {
-        match (self, other) {
-            (Self::None, part) | (part, Self::None) => *part,
-            (Self::Damping(one), Self::Damping(two)) => Self::Damping(*one + *two),
-            (Self::SpeedLoop(design), Self::Damping(more)) | (Self::Damping(more), Self::SpeedLoop(design)) => {
-                Self::SpeedLoop(SpeedLoopDesign { damping: design.damping + *more, ..*design })
-            }
-            _ => Self::Unknown,
+        Self {
+            two_mass: if self.two_mass.is_some() { self.two_mass } else { other.two_mass },
+            rigid: if self.rigid.is_some() { self.rigid } else { other.rigid },
+            gains: if self.gains.is_some() { self.gains } else { other.gains },
+            damping: self.damping + other.damping,
+            forward: self.forward + other.forward,
+            acceleration: self.acceleration + other.acceleration,
+            averaging: match self.averaging {
+                Averaging::None => other.averaging,
+                averaging => averaging,
+            },
         }
     }
 
     /// Stops the compilation where the speed loop of observer and governor lacks margin, or is unstable within the
     /// machine's tolerances.
     pub(super) const fn test<M: Machine>(&self, governor: &Self) {
-        let Self::SpeedLoop(speed_loop) = governor else { return };
-        let observer = match self {
-            Self::TwoMass(design) => LoopObserver::TwoMass(design),
-            Self::Rigid(design) => LoopObserver::Rigid(design),
-            _ => return,
+        match &governor.gains {
+            Some(GainSource::SpeedLoop(design)) => self.test_speed_loop::<M>(design, governor),
+            Some(GainSource::Governor(design)) => {
+                assert!(
+                    governor.damping == 0.0,
+                    "a damping of the twist rate needs the gains of a speed loop: let GAINS be GainSource::SpeedLoop"
+                );
+                let LoopPart { forward: share, acceleration, averaging, .. } = *governor;
+                let design = GovernorDesign { share, acceleration, ..*design };
+                if let Err(error) = design.try_robust(&M::TWO_MASS, averaging, &M::ROBUSTNESS) {
+                    error.stop()
+                }
+            }
+            None => {}
+        }
+    }
+
+    const fn test_speed_loop<M: Machine>(&self, design: &SpeedLoopDesign, governor: &Self) {
+        let observer = match (&self.two_mass, &self.rigid) {
+            (Some(design), _) => LoopObserver::TwoMass(design),
+            (None, Some(design)) => LoopObserver::Rigid(design),
+            (None, None) => return,
         };
-        M::TWO_MASS.robust(observer, speed_loop, M::ACTUATOR, &M::TOLERANCE, &M::ROBUSTNESS);
+        let late = match governor.averaging {
+            Averaging::None => 0.0,
+            // its phase; its gain is below one
+            Averaging::Ticks(ticks) => 0.5 * (ticks as f64 - 1.0) * M::PERIOD,
+            Averaging::Cycle(_) => panic!(
+                "an average of the speed over a cycle needs a governor's design: let GAINS be GainSource::Governor"
+            ),
+        };
+        let speed_loop = SpeedLoopDesign { damping: design.damping + governor.damping, ..*design };
+        let Actuator { delay, lag } = M::ACTUATOR;
+        let actuator = Actuator { delay: delay + late, lag };
+        M::TWO_MASS.robust(observer, &speed_loop, actuator, &M::TOLERANCE, &M::ROBUSTNESS);
     }
 }

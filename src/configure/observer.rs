@@ -35,30 +35,31 @@ macro_rules! observers {
         impl<M: Machine> Configure<M, $number> for TwoMassObserver<$number> {
             type Config = TwoMassConfig<$number>;
             const CONFIG: Self::Config = TwoMassConfig::<$number>::new(&M::OBSERVER, $bases);
-            const LOOP: LoopPart = LoopPart::TwoMass(M::OBSERVER);
+            const LOOP: LoopPart = LoopPart { two_mass: Some(M::OBSERVER), ..LoopPart::NONE };
         }
 
         impl<M: Machine> Configure<M, $number> for SemiImplicitObserver<$number> {
             type Config = SemiImplicitConfig<$number>;
             const CONFIG: Self::Config = SemiImplicitConfig::<$number>::new(&M::OBSERVER, $bases);
-            const LOOP: LoopPart = LoopPart::TwoMass(M::OBSERVER);
+            const LOOP: LoopPart = LoopPart { two_mass: Some(M::OBSERVER), ..LoopPart::NONE };
         }
 
         impl<M: Machine> Configure<M, $number> for RigidObserver<$number> {
             type Config = RigidConfig<$number>;
             const CONFIG: Self::Config = RigidConfig::<$number>::new(&M::RIGID_OBSERVER, M::LOAD_SHARE, $bases);
-            const LOOP: LoopPart = LoopPart::Rigid(M::RIGID_OBSERVER);
+            const LOOP: LoopPart = LoopPart { rigid: Some(M::RIGID_OBSERVER), ..LoopPart::NONE };
         }
 
         impl<M: Machine> Configure<M, $number> for BacklashObserver<$number> {
             type Config = BacklashConfig<$number>;
             const CONFIG: Self::Config = BacklashConfig::<$number>::new(&M::BACKLASH_OBSERVER, $bases);
-            const LOOP: LoopPart = LoopPart::TwoMass(M::BACKLASH_OBSERVER.contact);
+            const LOOP: LoopPart = LoopPart { two_mass: Some(M::BACKLASH_OBSERVER.contact), ..LoopPart::NONE };
         }
 
         impl<M: HasCrank> Configure<M, $number> for CrankObserver<$number> {
             type Config = CrankConfig<$number>;
             const CONFIG: Self::Config = CrankConfig::<$number>::new(&M::CRANK_OBSERVER, $bases);
+            const LOOP: LoopPart = LoopPart { rigid: Some(M::CRANK_OBSERVER.rigid), ..LoopPart::NONE };
         }
 
         impl<M: Machine, O> Configure<M, $number> for GearedObserver<O>

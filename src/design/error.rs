@@ -44,6 +44,10 @@ sentences! {
         or above and finite (s)",
     NaturalDamping => "the natural damping of motor and load must be finite (N m s/rad)",
     GovernorUnstable => "the governor is unstable with this actuator and shaft: raise its symmetrical-optimum factor",
+    GovernorGain => "the governor with its filter has less gain margin than ROBUSTNESS requires (6 dB unless named): \
+        raise its symmetrical-optimum factor, shorten the filter, or name a ROBUSTNESS of less",
+    GovernorPhase => "the governor with its filter has less phase margin than ROBUSTNESS requires (30 degrees unless \
+        named): raise its symmetrical-optimum factor, shorten the filter, or name a ROBUSTNESS of less",
     DampingUnstable => "the governor is unstable with this natural damping: a negative sum needs more gain, a lower \
         symmetrical-optimum factor",
     Barred => "barred speeds need frequencies and orders above zero and finite, and a margin above 0 and below 1",

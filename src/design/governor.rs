@@ -18,10 +18,10 @@
 //! s the estimated acceleration is that of the reported torque plus, delayed, that of the machine's motion. The loop is
 //! then `A (C P + s F)/(1 + s (1 - F) A)`.
 
-use super::late_loop::{Late, LateLoop};
+use super::late_loop::{Averaging, Late, LateLoop};
 use super::margins::{Margins, OpenLoop};
 use super::tuning::Rate;
-use super::{Error, ExactStep, NaturalDamping};
+use super::{Error, ExactStep, NaturalDamping, Robustness};
 use crate::machine::TwoMass;
 use crate::math::sqrt;
 
@@ -237,7 +237,11 @@ impl TwoMass {
             lag,
             natural,
         };
-        if design.open(self).is_stable(design.crossover()) { Ok(design) } else { Err(Error::GovernorUnstable) }
+        if design.open(self, Averaging::None).is_stable(design.crossover()) {
+            Ok(design)
+        } else {
+            Err(Error::GovernorUnstable)
+        }
     }
 }
 
@@ -265,7 +269,11 @@ impl GovernorDesign {
             return Err(error);
         }
         self.natural = natural;
-        if self.open(machine).is_stable(self.crossover()) { Ok(self) } else { Err(Error::DampingUnstable) }
+        if self.open(machine, Averaging::None).is_stable(self.crossover()) {
+            Ok(self)
+        } else {
+            Err(Error::DampingUnstable)
+        }
     }
 
     /// Fall of the steady speed per load torque (rad/(s N m)) under a [`Droop`](crate::governor::Droop) R, with the
@@ -279,7 +287,36 @@ impl GovernorDesign {
     /// Margins of the loop round a machine, cut at the actuator.
     #[must_use]
     pub const fn margins(&self, machine: &TwoMass) -> Margins {
-        let open = OpenLoop::Late(self.open(machine));
+        self.margins_behind(machine, Averaging::None)
+    }
+
+    /// Whether the loop round a machine, with an average of the speed in it, has the required margins.
+    ///
+    /// # Errors
+    /// [`Error::GovernorUnstable`], [`Error::GovernorGain`], [`Error::GovernorPhase`].
+    pub const fn try_robust(
+        &self,
+        machine: &TwoMass,
+        averaging: Averaging,
+        robustness: &Robustness,
+    ) -> Result<(), Error> {
+        if !self.open(machine, averaging).is_stable(self.crossover()) {
+            return Err(Error::GovernorUnstable);
+        }
+        let margins = self.margins_behind(machine, averaging);
+        if !(margins.gain_up >= robustness.gain && margins.gain_down * robustness.gain <= 1.0) {
+            Err(Error::GovernorGain)
+        } else if !(margins.phase >= robustness.phase) {
+            Err(Error::GovernorPhase)
+        } else {
+            Ok(())
+        }
+    }
+
+    /// [`margins`](Self::margins) with an average of the speed in the loop.
+    #[must_use]
+    pub const fn margins_behind(&self, machine: &TwoMass, averaging: Averaging) -> Margins {
+        let open = OpenLoop::Late(self.open(machine, averaging));
         let nyquist = core::f64::consts::PI / self.period;
         let mut found = Margins::NONE;
         // A negative natural damping sets a least gain, at a frequency far below the crossover. A large one lowers the
@@ -301,7 +338,7 @@ impl GovernorDesign {
         sqrt(self.integral / (self.proportional * self.equivalent_delay))
     }
 
-    const fn open(&self, machine: &TwoMass) -> LateLoop {
+    const fn open(&self, machine: &TwoMass, averaging: Averaging) -> LateLoop {
         let inertia = self.acceleration * machine.load_inertia / machine.total_inertia();
         let Actuator { delay, lag } = self.actuator;
         LateLoop {
@@ -311,6 +348,7 @@ impl GovernorDesign {
             proportional: self.proportional,
             integral: self.integral,
             late: Late { delay, lag, share: self.share, inertia, estimate: self.lag },
+            averaging,
             natural: if self.natural.motor == 0.0 && self.natural.load == 0.0 {
                 None
             } else {

@@ -7,6 +7,38 @@ use super::natural_damping::{DampedStep, NaturalDamping};
 use crate::machine::TwoMass;
 use crate::math::{atan2, exp, ln, sin_cos};
 
+/// Average of the speed that a governor takes, with its response.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Averaging {
+    /// None.
+    None,
+    /// The mean over so many ticks, of the load torque as well.
+    Ticks(u32),
+    /// The speed without its ripple over a cycle of this time (s): `(1 - exp(-s T)) (1/(s T) + 1/2)`.
+    Cycle(f64),
+}
+
+impl Averaging {
+    const fn response(self, frequency: f64, period: f64) -> Complex {
+        match self {
+            Self::None => (1.0, 0.0),
+            Self::Ticks(ticks) => {
+                let half = 0.5 * frequency * period;
+                let (whole, _) = sin_cos(ticks as f64 * half);
+                let (sine, cosine) = sin_cos((ticks as f64 - 1.0) * half);
+                let size = whole / (ticks as f64 * sin_cos(half).0);
+                (size * cosine, -size * sine)
+            }
+            Self::Cycle(time) => {
+                let angle = frequency * time;
+                let (sine, cosine) = sin_cos(angle);
+                times((1.0 - cosine, sine), (0.5, -1.0 / angle))
+            }
+        }
+    }
+}
+
 /// The loop cut at the torque, which acts one tick after its sample.
 #[derive(Clone, Copy)]
 pub(super) struct LateLoop {
@@ -18,6 +50,7 @@ pub(super) struct LateLoop {
     pub late: Late,
     /// The natural damping and its step; none on a free machine.
     pub natural: Option<(NaturalDamping, DampedStep)>,
+    pub averaging: Averaging,
 }
 
 /// Delays beyond the tick, in continuous time.
@@ -47,7 +80,7 @@ impl LateLoop {
             let (jm, jl) = (self.machine.motor_inertia, self.machine.load_inertia);
             let momentum = (jm * motor.0 + jl * load.0, jm * motor.1 + jl * load.1);
             let moved = times((d.0 / self.period, d.1 / self.period), momentum);
-            return self.with_late(over(times(self.controller(z, d), motor), z), moved, z, frequency);
+            return self.with_late(times(self.controller(z, d), motor), moved, z, frequency);
         }
         let n = &self.step;
         let (a, b) = ((d.0 - n.n11, d.1), (d.0 - n.n22, d.1));
@@ -61,7 +94,7 @@ impl LateLoop {
         let load = self.machine.load_inertia / total;
         let motor = (mean.0 + load * slip.0, mean.1 + load * slip.1);
         let speed = times(self.controller(z, d), motor);
-        self.with_late(over(speed, z), (1.0, 0.0), z, frequency)
+        self.with_late(speed, (1.0, 0.0), z, frequency)
     }
 
     /// Response of the proportional and integral controller.
@@ -70,14 +103,18 @@ impl LateLoop {
         (self.proportional + self.integral * self.period * integral.0, self.integral * self.period * integral.1)
     }
 
-    /// The response with delays: `A (L + (g + s) F M)/(1 - g F A + s (1 - F) A)`. M is the mean torque that
-    /// accelerates the masses, by their motion, over the torque that acts: 1 without natural damping.
-    const fn with_late(&self, prompt: Complex, moved: Complex, z: Complex, frequency: f64) -> Complex {
+    /// The response with delays: `A (V L + (g + s) F M)/(1 - g F A + s (1 - F) A)`. M is the mean torque that
+    /// accelerates the masses, by their motion, over the torque that acts: 1 without natural damping. V is the average
+    /// of the speed, and part of F where it averages the load torque too.
+    const fn with_late(&self, speed: Complex, moved: Complex, z: Complex, frequency: f64) -> Complex {
+        let average = self.averaging.response(frequency, self.period);
+        let prompt = over(times(average, speed), z);
         let Late { delay, lag, share, inertia, estimate } = self.late;
         let (sine, cosine) = sin_cos(frequency * delay);
         let actuator = over((cosine, -sine), (1.0, frequency * lag));
         let taken = share + inertia;
         let filter = over(over((taken, 0.0), (1.0, frequency * estimate)), z);
+        let filter = if let Averaging::Ticks(_) = self.averaging { times(filter, average) } else { filter };
         // Acts on the reported torque: (g + s) F - s/z.
         let own = over((inertia, 0.0), z);
         let fed = times((filter.0 - own.0, filter.1 - own.1), actuator);

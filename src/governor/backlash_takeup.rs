@@ -59,8 +59,13 @@ impl<N: Number, L: Limit<N>> Limit<N> for BacklashTakeUp<N, L> {
     type Config = BacklashTakeUpConfig<N, L::Config>;
 
     #[inline(always)]
+    fn most(&self, config: &Self::Config, estimate: &Estimate<N>) -> N {
+        self.limit.most(&config.limit, estimate)
+    }
+
+    #[inline(always)]
     fn limit(&mut self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N {
-        let twist_rate = (estimate.motor_speed - estimate.load_speed).gain_operand();
+        let twist_rate = estimate.motor_speed - estimate.load_speed;
         // positive where the torque drives the flank that the shaft is on
         let driven = estimate.shaft_torque.scaled(wanted);
         let (reach, damping) = if driven > N::ZERO {
@@ -72,7 +77,7 @@ impl<N: Number, L: Limit<N>> Limit<N> for BacklashTakeUp<N, L> {
             (if reach > config.torque { reach } else { config.torque }, damping)
         };
         self.reach = reach;
-        let allowed = (wanted.limited(self.reach) + twist_rate.times(damping)).saturated();
+        let allowed = (wanted.limited(self.reach) + twist_rate.gained::<4>(damping)).saturated();
         self.limit.limit(&config.limit, estimate, allowed)
     }
 
@@ -83,8 +88,9 @@ impl<N: Number, L: Limit<N>> Limit<N> for BacklashTakeUp<N, L> {
     }
 
     #[inline(always)]
-    fn start(&mut self, torque: N) {
-        self.reach = torque.magnitude();
-        self.limit.start(torque);
+    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) -> N {
+        let permitted = self.limit.start(&config.limit, estimate, torque);
+        self.reach = permitted.magnitude();
+        permitted
     }
 }

@@ -83,8 +83,7 @@ impl<N: Number> Compensation<N> for ActiveDamping {
 
     #[inline(always)]
     fn transient(&self, config: &ActiveDampingConfig<N>, estimate: &Estimate<N>, torque: N) -> N {
-        let twist_rate = (estimate.motor_speed - estimate.load_speed).gain_operand();
-        torque + twist_rate.times(config.damping)
+        torque + (estimate.motor_speed - estimate.load_speed).gained::<1>(config.damping)
     }
 }
 

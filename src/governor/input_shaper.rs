@@ -151,9 +151,9 @@ impl<N: Number, G: Governor<N>, const SLOTS: usize, const PARTS: usize> Governor
         self.governor.command(&config.governor, estimate)
     }
 
-    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) {
+    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) -> N {
         self.settle(estimate.motor_speed);
-        self.governor.start(&config.governor, estimate, torque);
+        self.governor.start(&config.governor, estimate, torque)
     }
 
     fn switch(&mut self, from: &Self::Config, to: &Self::Config, estimate: &Estimate<N>) {
@@ -164,10 +164,5 @@ impl<N: Number, G: Governor<N>, const SLOTS: usize, const PARTS: usize> Governor
     fn angle_lost(&mut self, config: &Self::Config, estimate: &Estimate<N>) {
         self.settle(estimate.motor_speed);
         self.governor.angle_lost(&config.governor, estimate);
-    }
-
-    #[inline(always)]
-    fn permits(&self) -> bool {
-        self.governor.permits()
     }
 }

@@ -8,6 +8,9 @@ pub trait Limit<N: Number>: Default {
     /// Its constants.
     type Config;
 
+    /// The largest permitted torque (N m), in either direction.
+    fn most(&self, config: &Self::Config, estimate: &Estimate<N>) -> N;
+
     /// The permitted torque nearest to `wanted`.
     fn limit(&mut self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N;
 
@@ -18,9 +21,11 @@ pub trait Limit<N: Number>: Default {
         setpoint
     }
 
-    /// Starts from this torque.
+    /// Starts from the permitted torque nearest to this one, whatever the last, and returns it.
     #[inline(always)]
-    fn start(&mut self, _torque: N) {}
+    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) -> N {
+        self.limit(config, estimate, torque)
+    }
 }
 
 /// The same limit in both directions.
@@ -38,6 +43,11 @@ pub struct SymmetricLimitConfig<N> {
 
 impl<N: Number> Limit<N> for SymmetricLimit {
     type Config = SymmetricLimitConfig<N>;
+
+    #[inline(always)]
+    fn most(&self, config: &Self::Config, _estimate: &Estimate<N>) -> N {
+        config.torque
+    }
 
     #[inline(always)]
     fn limit(&mut self, config: &Self::Config, _estimate: &Estimate<N>, wanted: N) -> N {
@@ -72,8 +82,19 @@ fn between<N: Number>(wanted: N, min: N, max: N) -> N {
     }
 }
 
+/// The larger of two magnitudes, of a least torque that is not positive and a largest that is not negative.
+#[inline(always)]
+fn larger<N: Number>(min: N, max: N) -> N {
+    if max > -min { max } else { -min }
+}
+
 impl<N: Number> Limit<N> for TorqueRange {
     type Config = TorqueRangeConfig<N>;
+
+    #[inline(always)]
+    fn most(&self, config: &Self::Config, _estimate: &Estimate<N>) -> N {
+        larger(config.min, config.max)
+    }
 
     #[inline(always)]
     fn limit(&mut self, config: &Self::Config, _estimate: &Estimate<N>, wanted: N) -> N {
@@ -127,6 +148,11 @@ impl<N: Number, const K: usize> Limit<N> for Curve<K> {
     type Config = CurveConfig<N, K>;
 
     #[inline(always)]
+    fn most(&self, config: &Self::Config, estimate: &Estimate<N>) -> N {
+        larger(config.min, config.max_torque(estimate.motor_speed))
+    }
+
+    #[inline(always)]
     fn limit(&mut self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N {
         between(wanted, config.min, config.max_torque(estimate.motor_speed))
     }
@@ -154,6 +180,11 @@ impl<N: Number, L: Limit<N>> Limit<N> for Slew<N, L> {
     type Config = SlewConfig<N, L::Config>;
 
     #[inline(always)]
+    fn most(&self, config: &Self::Config, estimate: &Estimate<N>) -> N {
+        self.limit.most(&config.limit, estimate)
+    }
+
+    #[inline(always)]
     fn limit(&mut self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N {
         let slewed = self.last + (wanted - self.last).limited(config.step);
         self.last = self.limit.limit(&config.limit, estimate, slewed);
@@ -161,8 +192,8 @@ impl<N: Number, L: Limit<N>> Limit<N> for Slew<N, L> {
     }
 
     #[inline(always)]
-    fn start(&mut self, torque: N) {
-        self.last = torque;
-        self.limit.start(torque);
+    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) -> N {
+        self.last = self.limit.start(&config.limit, estimate, torque);
+        self.last
     }
 }

@@ -13,7 +13,7 @@ pub trait LoopFilter<N: Number>: Default {
     const LAGS_DAMPING: bool = false;
 
     /// The setpoint for the loop, once a tick: the ramp has moved by `step` to `ramped`. `share` is the integral's part
-    /// of the proportional gain in a tick, k_i T/k_p.
+    /// of the gain in a tick, k_i T/(k_p + k_i T): the distance of the loop's zero from 1.
     #[inline(always)]
     fn setpoint(&mut self, _carry: &mut N::Carry, _share: N::Coefficient, _step: N, ramped: N) -> N {
         ramped
@@ -152,10 +152,9 @@ mod tests {
     /// A proportional and integral loop on this inertia, natural frequency `w`, damping ratio 1.
     const fn config(inertia: f64, w: f64) -> SpeedLoopConfig<f64> {
         SpeedLoopConfig {
-            proportional: 2.0 * w * inertia,
-            integral: w * w * inertia * PERIOD,
+            proportional: (2.0 + w * PERIOD) * w * inertia,
             damping: 0.0,
-            anti_windup: 0.5 * w * PERIOD,
+            reset: w * PERIOD / (2.0 + w * PERIOD),
             torque_limit: 1e9,
             ramp: ACCELERATION * PERIOD,
             filter: (),

@@ -2,11 +2,12 @@
 //!
 //! ```text
 //! omega* = ramp(setpoint) - droop,     e = omega* - omega_m
-//! tau    = limit(k_p e + I + compensation),  I' = I + k_i e + k_u (tau - wanted)
+//! tau    = limit(k e + I + c),         I' = I + r (tau - c - I)
 //! ```
 //!
-//! Anti-windup by back-calculation at the integral's own rate, for every part of the limit: torque, power or slew.
-//! [`BacklashTakeUp`](super::BacklashTakeUp) moves the ramped setpoint back as well.
+//! with gain k and reset r as in [`SpeedLoop`](super::SpeedLoop) and the compensation c. The integral follows the
+//! limited torque, whichever part limits it: torque, power or slew. [`BacklashTakeUp`](super::BacklashTakeUp) moves the
+//! ramped setpoint back as well.
 //!
 //! - **`N`**, the number: `f32`, `f64` or [`Fixed`](crate::number::Fixed)
 //! - **`S`**, shaping of the setpoint: `()` isochronous, [`Droop`](super::Droop), [`Barred`](super::Barred)
@@ -28,12 +29,10 @@ use crate::sample::Estimate;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Gains<N: Number> {
-    /// Proportional gain k_p (N m s/rad).
+    /// Gain on the error of the speed in a tick, k_p + k_i T (N m s/rad).
     pub proportional: N::Coefficient,
-    /// Integral gain per tick, k_i T (N m s/rad).
-    pub integral: N::Coefficient,
-    /// Anti-windup gain: share of the limited torque fed back to the integral in a tick, k_i T/k_p.
-    pub anti_windup: N::Coefficient,
+    /// Share of its distance to the limited torque that the integral covers in a tick, k_i T/(k_p + k_i T): 0 to 1.
+    pub reset: N::Coefficient,
     /// Largest change of the setpoint in a tick (rad/s).
     pub ramp: N,
 }
@@ -112,8 +111,7 @@ where
 
     /// Bumpless transfer from the constants `from` to `to`: the next tick's torque is as under `from`. Call it once,
     /// between two ticks, when gains, droop or feed-forward change. The integral takes over the difference of the
-    /// torques; the ramped setpoint that of the droops, and returns by its ramp. In fixed point the integral ends at
-    /// twice the base.
+    /// torques, up to twice the limit; the ramped setpoint that of the droops, and returns by its ramp.
     pub fn switch(
         &mut self,
         from: &SpeedGovernorConfigOf<N, S, F, L, M, V>,
@@ -122,10 +120,14 @@ where
     ) {
         let estimate = &self.filter.filtered(estimate);
         let target = self.target(from, estimate);
-        let error = (target - estimate.motor_speed).gain_operand();
-        let before = self.wanted(from, estimate, self.integral, error);
-        let after = self.wanted(to, estimate, self.integral, error);
-        self.integral = (self.integral + (before - after).saturated()).saturated();
+        let error = target - estimate.motor_speed;
+        // The proportional part of saturation counts as four limits, which every number holds.
+        let most = self.limit.most(&to.limit, estimate);
+        let twice = most + most;
+        let wanted = |c: &SpeedGovernorConfigOf<N, S, F, L, M, V>| {
+            self.standing(c, estimate) + error.gained::<4>(c.gains.proportional).limited(twice + twice)
+        };
+        self.integral = (self.integral + (wanted(from) - wanted(to)).limited(twice)).limited(twice);
         self.ramped = self.ramped + (target - self.target(to, estimate));
     }
 
@@ -136,26 +138,22 @@ where
         self.shape.lower(&config.shape, self.ramped, standing)
     }
 
+    /// The integral with the compensation.
     #[inline(always)]
-    fn wanted(
-        &self,
-        config: &SpeedGovernorConfigOf<N, S, F, L, M, V>,
-        estimate: &Estimate<N>,
-        integral: N,
-        error: N,
-    ) -> N {
-        let standing = self.compensation.steady(&config.compensation, estimate, integral);
-        self.compensation.transient(&config.compensation, estimate, standing + error.times(config.gains.proportional))
+    fn standing(&self, config: &SpeedGovernorConfigOf<N, S, F, L, M, V>, estimate: &Estimate<N>) -> N {
+        let steady = self.compensation.steady(&config.compensation, estimate, self.integral);
+        self.compensation.transient(&config.compensation, estimate, steady).saturated()
     }
 
-    /// Starts from the present speed with a steady torque (bumpless transfer).
-    fn begin(&mut self, config: &SpeedGovernorConfigOf<N, S, F, L, M, V>, estimate: &Estimate<N>, torque: N) {
+    /// Starts from the present speed with the permitted torque nearest to this one, steady (bumpless transfer).
+    fn begin(&mut self, config: &SpeedGovernorConfigOf<N, S, F, L, M, V>, estimate: &Estimate<N>, torque: N) -> N {
+        let torque = self.limit.start(&config.limit, estimate, torque);
         let speed = estimate.motor_speed;
         let lowered = self.shape.lower(&config.shape, speed, torque);
         self.ramped = speed + (speed - lowered);
         let beyond = self.compensation.steady(&config.compensation, estimate, torque) - torque;
         self.integral = (torque - beyond).saturated();
-        self.limit.start(torque);
+        torque
     }
 }
 
@@ -191,19 +189,20 @@ where
         let mut setpoint = self.setpoint;
         match self.sequence.action(&config.sequence, monitored) {
             RunAction::Govern => {}
-            RunAction::Begin => self.begin(config, estimate, N::ZERO),
+            RunAction::Begin => {
+                self.begin(config, estimate, N::ZERO);
+            }
             RunAction::Brake => setpoint = N::ZERO,
             RunAction::Idle => return N::ZERO,
         }
         let (goal, ramp) = self.shape.goal(&config.shape, setpoint, self.ramped, config.gains.ramp);
         self.ramped = self.ramped + (goal - self.ramped).limited(ramp);
-        let error = (self.target(config, estimate) - estimate.motor_speed).gain_operand();
-        let integral = self.integral.accumulate(&mut carry, [config.gains.integral], [error]);
-        let wanted = self.wanted(config, estimate, integral, error).saturated();
+        let error = self.target(config, estimate) - estimate.motor_speed;
+        let standing = self.standing(config, estimate);
+        let wanted = (standing + error.gained::<4>(config.gains.proportional)).saturated();
         let torque = self.limit.limit(&config.limit, estimate, wanted);
         self.ramped = self.limit.track(&config.limit, self.ramped, wanted);
-        let excess = torque - wanted;
-        self.integral = integral.accumulate(&mut carry, [config.gains.anti_windup], [excess]).saturated();
+        self.integral = self.integral.accumulate(&mut carry, [config.gains.reset], [torque - standing]).saturated();
         torque
     }
 
@@ -211,11 +210,12 @@ where
         SpeedGovernor::switch(self, from, to, estimate);
     }
 
-    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) {
+    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) -> N {
         self.sequence.start();
         self.filter.start(&config.filter, estimate);
-        self.begin(config, estimate, torque);
         self.setpoint = N::ZERO;
+        let torque = if self.sequence.permits() { torque } else { N::ZERO };
+        self.begin(config, estimate, torque)
     }
 
     fn angle_lost(&mut self, config: &Self::Config, estimate: &Estimate<N>) {
@@ -223,10 +223,5 @@ where
         self.begin(config, estimate, N::ZERO);
         self.setpoint = N::ZERO;
         self.sequence.angle_lost();
-    }
-
-    #[inline(always)]
-    fn permits(&self) -> bool {
-        self.sequence.permits()
     }
 }

@@ -1,12 +1,14 @@
 //! A speed loop: proportional and integral, active damping, limits, anti-windup.
 //!
 //! ```text
-//! tau = k_p (omega* - omega_m) + I - k_d (omega_m - omega_l),   I' = I + k_i (omega* - omega_m)
+//! tau = limit(k (omega* - omega_m) + I + d),   d = -k_d (omega_m - omega_l),   I' = I + r (tau - d - I)
 //! ```
 //!
-//! limited to the drive's torque. Anti-windup is by back-calculation with the integral's own time constant. The
-//! setpoint moves by at most the ramp's step a tick. Filters of the ramped setpoint and of the twist rate are optional:
-//! [`LoopFilter`].
+//! with `k = k_p + k_i T` and `r = k_i T/k`, T the period. Within the limit this is the proportional and integral law,
+//! `I' = I + k_i T (omega* - omega_m)`. The integral follows the limited torque with its own time constant (automatic
+//! reset [Åström and Hägglund 1995, PID Controllers, section 3.5]). With r below 1 it stays within the limit and the
+//! largest damping, whatever gains, setpoint and estimates: it cannot wind up. The setpoint moves by at most the ramp's
+//! step a tick. Filters of the ramped setpoint and of the twist rate are optional: [`LoopFilter`].
 
 use super::{Governor, LoopFilter};
 use crate::number::Number;
@@ -16,14 +18,12 @@ use crate::sample::Estimate;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpeedLoopConfig<N: Number, F = ()> {
-    /// Proportional gain k_p (N m s/rad).
+    /// Gain on the error of the speed in a tick, k_p + k_i T (N m s/rad).
     pub proportional: N::Coefficient,
-    /// Integral gain per tick, k_i T (N m s/rad).
-    pub integral: N::Coefficient,
     /// Active damping -k_d (N m s/rad), on the twist rate.
     pub damping: N::Coefficient,
-    /// Anti-windup gain: share of the limited torque fed back to the integral in a tick, k_i T/k_p.
-    pub anti_windup: N::Coefficient,
+    /// Share of its distance to the limited torque that the integral covers in a tick, k_i T/(k_p + k_i T): 0 to 1.
+    pub reset: N::Coefficient,
     /// Largest torque, in either direction (N m).
     pub torque_limit: N,
     /// Largest change of the setpoint in a tick (rad/s).
@@ -36,8 +36,8 @@ impl<N: Number> SpeedLoopConfig<N> {
     /// The same with the constants of filters.
     #[must_use]
     pub const fn with_filter<F: Copy>(self, filter: F) -> SpeedLoopConfig<N, F> {
-        let Self { proportional, integral, damping, anti_windup, torque_limit, ramp, filter: () } = self;
-        SpeedLoopConfig { proportional, integral, damping, anti_windup, torque_limit, ramp, filter }
+        let Self { proportional, damping, reset, torque_limit, ramp, filter: () } = self;
+        SpeedLoopConfig { proportional, damping, reset, torque_limit, ramp, filter }
     }
 }
 
@@ -73,30 +73,33 @@ impl<N: Number, F: LoopFilter<N>> Governor<N> for SpeedLoop<N, F> {
         let mut carry = N::CARRY;
         let step = (self.setpoint - self.ramped).limited(config.ramp);
         self.ramped = self.ramped + step;
-        let setpoint = self.filter.setpoint(&mut carry, config.anti_windup, step, self.ramped);
-        let error = (setpoint - estimate.motor_speed).gain_operand();
+        let setpoint = self.filter.setpoint(&mut carry, config.reset, step, self.ramped);
+        let error = setpoint - estimate.motor_speed;
         let twist_rate = estimate.motor_speed - estimate.load_speed;
-        let twist_rate = self.filter.twist_rate(&mut carry, &config.filter, twist_rate).gain_operand();
-        let integral = self.integral.accumulate(&mut carry, [config.integral], [error]);
-        let prompt = N::truncated([config.proportional, config.damping], [error, twist_rate]);
-        let wanted = integral + prompt;
-        let torque = wanted.limited(config.torque_limit);
-        self.integral = integral.accumulate(&mut carry, [config.anti_windup], [torque - wanted]).saturated();
+        let twist_rate = self.filter.twist_rate(&mut carry, &config.filter, twist_rate);
+        let standing = self.integral + twist_rate.gained::<1>(config.damping);
+        let torque = (standing + error.gained::<4>(config.proportional)).limited(config.torque_limit);
+        self.integral = self.integral.accumulate(&mut carry, [config.reset], [torque - standing]);
         torque
     }
 
-    /// The integral takes over the difference of the torques.
+    /// The integral takes over the difference of the torques, up to twice the limit.
     fn switch(&mut self, from: &Self::Config, to: &Self::Config, estimate: &Estimate<N>) {
-        let error = (self.filter.filtered_setpoint(self.ramped) - estimate.motor_speed).gain_operand();
-        let twist_rate = self.filter.filtered_twist_rate(estimate.motor_speed - estimate.load_speed).gain_operand();
-        let prompt = |c: &Self::Config| N::truncated([c.proportional, c.damping], [error, twist_rate]);
-        self.integral = (self.integral + (prompt(from) - prompt(to))).saturated();
+        let error = self.filter.filtered_setpoint(self.ramped) - estimate.motor_speed;
+        let twist_rate = self.filter.filtered_twist_rate(estimate.motor_speed - estimate.load_speed);
+        // The proportional part of saturation counts as four limits, which every number holds.
+        let twice = to.torque_limit + to.torque_limit;
+        let prompt = |c: &Self::Config| {
+            error.gained::<4>(c.proportional).limited(twice + twice) + twist_rate.gained::<1>(c.damping)
+        };
+        self.integral = (self.integral + (prompt(from) - prompt(to)).limited(twice)).limited(twice);
     }
 
-    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) {
+    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) -> N {
         self.ramped = estimate.motor_speed;
         self.setpoint = N::ZERO;
         self.integral = torque.limited(config.torque_limit);
         self.filter = F::default();
+        self.integral
     }
 }

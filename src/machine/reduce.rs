@@ -65,7 +65,7 @@ impl Chain {
             error: ReductionError::NONE,
         };
         if self.count == 2 {
-            return Ok(machine);
+            return machine.checked();
         }
         let modes = self.modes();
         let total = self.total_inertia();
@@ -101,7 +101,7 @@ impl Chain {
         if !machine.error.is_sound() {
             return Err(Error::Reduction);
         }
-        Ok(machine)
+        machine.checked()
     }
 
     /// Lumps the inertias on either side of a shaft.
@@ -214,4 +214,29 @@ pub(super) const fn compliance(
         j -= 1;
     }
     sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Chain, Error, Match};
+    use crate::machine::{Damping, Efficiency, Inertia, Ratio, Stiffness};
+
+    /// Finite parts whose sum, or whose inertia at the motor, is not.
+    #[test]
+    fn two_masses_are_finite_or_refused() {
+        let chain = |motor: f64, ratio: f64, load: f64| {
+            Chain::motor(Inertia(motor))
+                .gear(Ratio(ratio), Efficiency(1.0))
+                .shaft(Stiffness(1e4), Damping(0.0))
+                .rotor(Inertia(load))
+                .try_reduce(Match::ResonanceAntiresonance)
+                .err()
+        };
+        assert_eq!(chain(1.0, 2.0, 1.0), None);
+        for (motor, ratio, load) in [(1.0, 1e-160, 1.0), (1e308, 1.0, 1e308), (1e-320, 1.0, 1e-320), (1.0, 1e170, 1.0)]
+        {
+            assert!(chain(motor, ratio, load).is_some(), "{motor} {ratio} {load}");
+        }
+        assert_eq!(chain(1e308, 1.0, 1e308), Some(Error::Reduction));
+    }
 }

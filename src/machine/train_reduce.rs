@@ -65,6 +65,6 @@ impl Train {
         if !machine.error.is_sound() {
             return Err(Error::Reduction);
         }
-        Ok(machine)
+        machine.checked()
     }
 }

@@ -54,8 +54,13 @@ impl TwoMass {
             gravity_torque: 0.0,
             error: ReductionError::NONE,
         };
-        match machine.check() {
-            Ok(()) => Ok(machine),
+        machine.checked()
+    }
+
+    /// The machine, if it passes [`check`](Self::check).
+    pub(super) const fn checked(self) -> Result<Self, Error> {
+        match self.check() {
+            Ok(()) => Ok(self),
             Err(error) => Err(error),
         }
     }
@@ -103,6 +108,11 @@ impl TwoMass {
             Err(Error::BacklashGap)
         } else if !self.gravity_torque.is_finite() {
             Err(Error::GravityTorque)
+        } else if !(self.total_inertia().is_finite()
+            && (self.stiffness / self.reduced_inertia()).is_finite()
+            && (self.damping / self.reduced_inertia()).is_finite())
+        {
+            Err(Error::Reduction)
         } else {
             Ok(())
         }

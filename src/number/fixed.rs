@@ -163,10 +163,8 @@ impl Number for Fixed {
 
     // Bit 28 of a magnitude is set in the union where it is set in any; saturated states have none above it.
     #[inline(always)]
-    fn beyond_base(states: [Self; 3]) -> u32 {
-        let magnitude = |x: Fixed| x.0 ^ (x.0 >> 31);
-        let [a, b, c] = states;
-        (magnitude(a) | magnitude(b) | magnitude(c)) as u32 >> 28
+    fn beyond_base<const K: usize>(states: [Self; K]) -> u32 {
+        states.into_iter().fold(0, |union, x| union | (x.0 ^ (x.0 >> 31)) as u32) >> 28
     }
 
     // The limit with the sign of the number, in two instructions.
@@ -202,9 +200,11 @@ impl Number for Fixed {
         Fixed(self.0 << INNOVATION_SHIFT)
     }
 
+    // The upper word alone, limited by one SSAT instruction.
     #[inline(always)]
-    fn gain_operand(self) -> Self {
-        Fixed(self.0.clamp(-(1 << 26), (1 << 26) - 1) << GAIN_SHIFT)
+    fn gained<const BASES: i32>(self, gain: Coefficient) -> Self {
+        let most = const { BASES << (28 - GAIN_SHIFT) };
+        Fixed(((product(gain, self) >> 32) as i32).clamp(-most, most - 1) << GAIN_SHIFT)
     }
 
     #[inline(always)]

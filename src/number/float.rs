@@ -49,13 +49,14 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn beyond_base(_states: [Self; 3]) -> u32 {
+            fn beyond_base<const K: usize>(_states: [Self; K]) -> u32 {
                 0
             }
 
+            // Written so that a NaN, which compares with nothing, gives the limit.
             #[inline(always)]
             fn limited(self, limit: Self) -> Self {
-                if self > limit {
+                if !(self <= limit) {
                     limit
                 } else if self < -limit {
                     -limit
@@ -91,8 +92,8 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn gain_operand(self) -> Self {
-                self
+            fn gained<const BASES: i32>(self, gain: Self) -> Self {
+                self * gain
             }
 
             #[inline(always)]

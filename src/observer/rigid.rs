@@ -105,6 +105,6 @@ impl<N: Number> Observer<N> for RigidObserver<N> {
 
     #[inline(always)]
     fn beyond_base(&self) -> u32 {
-        N::beyond_base([self.speed, self.load_torque, N::ZERO])
+        N::beyond_base([self.speed, self.load_torque])
     }
 }

@@ -114,6 +114,6 @@ impl<N: Number> Observer<N> for SemiImplicitObserver<N> {
 
     #[inline(always)]
     fn beyond_base(&self) -> u32 {
-        N::beyond_base([self.motor_speed, self.shaft_torque, self.load_torque])
+        N::beyond_base([self.motor_speed, self.shaft_torque, self.load_speed, self.load_torque])
     }
 }

@@ -133,6 +133,6 @@ impl<N: Number> Observer<N> for TwoMassObserver<N> {
 
     #[inline(always)]
     fn beyond_base(&self) -> u32 {
-        N::beyond_base([self.twist, self.speed, self.load_torque])
+        N::beyond_base([self.twist, self.twist_rate, self.speed, self.load_torque])
     }
 }

@@ -31,9 +31,8 @@ where
     fn between(&self, other: &Self, weight: Weight) -> Self {
         SpeedLoopConfig {
             proportional: self.proportional.between(&other.proportional, weight),
-            integral: self.integral.between(&other.integral, weight),
             damping: self.damping.between(&other.damping, weight),
-            anti_windup: self.anti_windup.between(&other.anti_windup, weight),
+            reset: self.reset.between(&other.reset, weight),
             torque_limit: self.torque_limit.between(&other.torque_limit, weight),
             ramp: self.ramp.between(&other.ramp, weight),
             filter: self.filter.between(&other.filter, weight),

@@ -23,9 +23,13 @@ pub(super) const fn per_unit(value: f64, sentence: &'static str) -> Result<Fixed
     if value <= 2.0 && fixed.to_bits() > 0 { Ok(fixed) } else { Err(Error::Value(sentence)) }
 }
 
-/// A positive value that a float holds, and not as zero; the error names it.
+/// A positive value that a float holds with all its digits; the error names it.
 pub(super) const fn positive(value: f64, sentence: &'static str) -> Result<f64, Error> {
-    if value as f32 > 0.0 && (value as f32).is_finite() { Ok(value) } else { Err(Error::Value(sentence)) }
+    if value as f32 >= f32::MIN_POSITIVE && (value as f32).is_finite() {
+        Ok(value)
+    } else {
+        Err(Error::Value(sentence))
+    }
 }
 
 /// Unwraps a result in a `const fn` that returns one.

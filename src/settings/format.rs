@@ -15,7 +15,7 @@ pub(crate) struct Format {
     pub(crate) turn: f64,
     /// Factor of `innovation_operand`.
     pub(crate) innovation: f64,
-    /// Factor of `gain_operand`.
+    /// Factor of `gained`.
     pub(crate) gain: f64,
     /// Factor of `speed_of_turn`.
     pub(crate) speed: f64,

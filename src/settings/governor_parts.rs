@@ -11,16 +11,17 @@ use crate::governor::{
 };
 use crate::number::Fixed;
 
-const GAIN: &str =
+pub(super) const GAIN: &str =
     "a gain of the governor is beyond the range of its number: lower its bandwidth or raise the base of the torque";
-const NO_GAIN: &str = "the gains of the governor must be finite, and the proportional one above zero";
+const NO_GAIN: &str = "the gains of the governor must be finite, the proportional one above zero, the integral one \
+    zero or above, and the period of a tick positive";
 pub(super) const RAMP: &str = "the ramp of the governor must be positive and finite, and within a tick at most twice \
     the base of the speed, in fixed point at least 2^-28 of it";
 const DROOP: &str = "the droop must be zero or above and finite, for a rated speed and torque above zero, and below \
     half a base of the speed per base of the torque in fixed point";
 const SHARE: &str = "the share of the load torque that is fed forward must be from 0 to 1";
 pub(super) const LIMIT: &str = "the torque limit of the governor must be positive and finite, its least zero or below, \
-    and both within twice the base of the torque in fixed point";
+    and both within the base of the torque in fixed point";
 const MODES: &str = "the speeds of the sequencer must be standstill < underspeed < overspeed, none of them negative, \
     the \
     shaft's torque positive, all finite and within twice their bases in fixed point";
@@ -63,25 +64,48 @@ pub(super) const fn all_finite(values: &[f64]) -> bool {
     true
 }
 
-const fn gains(design: &[f64; 5], ramp: f64, format: &Format) -> Values<1, 3> {
-    let [proportional, integral, slip, acceleration, period] = *design;
+/// Gain on the error, on the twist rate, and reset of a proportional and integral law, scaled to a format.
+pub(super) const fn law(
+    proportional: f64,
+    integral: f64,
+    damping: f64,
+    period: f64,
+    format: &Format,
+) -> Result<[f64; 3], Error> {
     let Bases { torque, speed, .. } = format.bases;
     let scale = speed / (torque * format.gain);
-    let step = ramp * period / speed;
-    // Operands are limited to 8 bases; the integral, the feed-forward and the accelerating torque to 2: the sum must
-    // stay within 8.
-    let sum = 8.0 * scale * (proportional + integral * period + slip.abs()) + 2.0 * acceleration;
-    let anti_windup = integral * period / proportional;
+    let gain = proportional + integral * period;
+    let law = [gain * scale, -damping * scale, integral * period / gain];
+    if !damps_within_base(damping, format) {
+        Err(Error::Coefficient(GAIN))
+    } else if proportional > 0.0 && integral >= 0.0 && period > 0.0 && all_finite(&law) {
+        Ok(law)
+    } else {
+        Err(Error::Coefficient(NO_GAIN))
+    }
+}
+
+/// Whether the damping is within the base of the torque at a twist rate that is not reported: within its base, and
+/// within twice that of the speed.
+const fn damps_within_base(damping: f64, format: &Format) -> bool {
+    let Bases { torque, speed, twist_rate, .. } = format.bases;
+    format.unit == 1.0 || damping.abs() * twist_rate.min(2.0 * speed) <= torque
+}
+
+/// A torque per unit that leaves the sum of a governor its headroom: the damping is within a base, the integral within
+/// two, the proportional part within four.
+pub(super) const fn within_base(torque: f64, format: &Format, sentence: &'static str) -> Result<f64, Error> {
+    if format.unit != 1.0 && !(torque.abs() <= 1.0) { Err(Error::Value(sentence)) } else { Ok(torque) }
+}
+
+const fn gains(proportional: f64, integral: f64, period: f64, ramp: f64, format: &Format) -> Values<1, 2> {
+    let step = ramp * period / format.bases.speed;
     // A ramp that rounds to zero would hold the setpoint.
     if !(step * format.unit >= least_step(format) && all_finite(&[step])) {
-        Err(Error::Value(RAMP))
-    } else if !(proportional > 0.0 && all_finite(&[proportional * scale, integral * period * scale, anti_windup])) {
-        Err(Error::Coefficient(NO_GAIN))
-    } else if format.unit != 1.0 && !(sum <= 3.99) {
-        Err(Error::Coefficient(GAIN))
-    } else {
-        Ok(([step], [proportional * scale, integral * period * scale, anti_windup]))
+        return Err(Error::Value(RAMP));
     }
+    let [gain, _, reset] = get!(law(proportional, integral, 0.0, period, format));
+    Ok(([step], [gain, reset]))
 }
 
 /// The least step of a ramp that is not zero, in units of the format.
@@ -112,12 +136,20 @@ const fn acceleration(feedback: f64, format: &Format) -> Values<0, 1> {
 
 const fn damping(slip: f64, format: &Format) -> Values<0, 1> {
     let damping = -slip * format.bases.speed / (format.bases.torque * format.gain);
-    if all_finite(&[damping]) { Ok(([], [damping])) } else { Err(Error::Coefficient(NO_GAIN)) }
+    if !damps_within_base(slip, format) {
+        Err(Error::Coefficient(GAIN))
+    } else if all_finite(&[damping]) {
+        Ok(([], [damping]))
+    } else {
+        Err(Error::Coefficient(NO_GAIN))
+    }
 }
 
 pub(super) const fn between(min: f64, max: f64, format: &Format) -> Values<2, 0> {
-    if min <= 0.0 && max > 0.0 && all_finite(&[min, max]) {
-        Ok(([min / format.bases.torque, max / format.bases.torque], []))
+    let torque = format.bases.torque;
+    // A largest torque that rounds to zero would hold the machine without any.
+    if min <= 0.0 && max / torque * format.unit >= least_step(format) && all_finite(&[min, max]) {
+        Ok(([get!(within_base(min / torque, format, LIMIT)), get!(within_base(max / torque, format, LIMIT))], []))
     } else {
         Err(Error::Value(LIMIT))
     }
@@ -155,9 +187,10 @@ constants! {
     /// [`Error::Value`] for a ramp (rad/s2) that is not positive and finite, or that the number rounds to none;
     /// [`Error::Coefficient`] for a gain that is not finite or beyond fixed point.
     impl[] Gains[], new, try_new(design: &GovernorDesign, ramp: f64), |format| {
-        let design = [design.proportional, design.integral, 0.0, design.acceleration, design.period];
-        let ([ramp], [proportional, integral, anti_windup]) = get!(To::part(gains(&design, ramp, &format), GAIN));
-        Ok(Gains { proportional, integral, anti_windup, ramp })
+        let GovernorDesign { proportional, integral, period, .. } = *design;
+        let ([ramp], [proportional, reset]) =
+            get!(To::part(gains(proportional, integral, period, ramp, &format), GAIN));
+        Ok(Gains { proportional, reset, ramp })
     }
 }
 
@@ -195,7 +228,7 @@ constants! {
 }
 
 constants! {
-    /// [`Error::Value`] for a torque (N m) that is not positive and finite, or beyond twice its base.
+    /// [`Error::Value`] for a torque (N m) that is not positive and finite, or beyond its base.
     impl[] SymmetricLimitConfig[], new, try_new(torque: f64), |format| {
         let ([_, torque], []) = get!(To::part(between(0.0, torque, &format), LIMIT));
         Ok(SymmetricLimitConfig { torque })
@@ -203,7 +236,7 @@ constants! {
 }
 
 constants! {
-    /// [`Error::Value`] for torques (N m) that are not at most and above zero and finite, or beyond twice their base.
+    /// [`Error::Value`] for torques (N m) that are not at most and above zero and finite, or beyond their base.
     impl[] TorqueRangeConfig[], new, try_new(min: f64, max: f64), |format| {
         let ([min, max], []) = get!(To::part(between(min, max, &format), LIMIT));
         Ok(TorqueRangeConfig { min, max })
@@ -231,9 +264,10 @@ constants! {
     /// [`Error::Value`] for a ramp (rad/s2) that is not positive and finite, [`Error::Coefficient`] for a gain beyond
     /// fixed point.
     impl[] Gains[], of_speed_loop, try_of_speed_loop(design: &SpeedLoopDesign, ramp: f64), |format| {
-        let design = [design.proportional, design.integral, design.damping, 0.0, design.period];
-        let ([ramp], [proportional, integral, anti_windup]) = get!(To::part(gains(&design, ramp, &format), GAIN));
-        Ok(Gains { proportional, integral, anti_windup, ramp })
+        let SpeedLoopDesign { proportional, integral, period, .. } = *design;
+        let ([ramp], [proportional, reset]) =
+            get!(To::part(gains(proportional, integral, period, ramp, &format), GAIN));
+        Ok(Gains { proportional, reset, ramp })
     }
 }
 
@@ -288,40 +322,20 @@ impl<const K: usize> MovingAverageConfig<Fixed, K> {
 mod tests {
     use super::*;
 
-    /// In fixed point eight times the gains that act on the speed and twice the acceleration's stay below 3.99 bases of
-    /// the torque: with bases of one each gain has a share of its own.
-    #[test]
-    fn gains_are_within_the_range_of_their_sum() {
-        let format = Format { gain: 1.0, ..Format::fixed(Bases::SI) };
-        let fits = |design: [f64; 5]| gains(&design, 1.0, &format).is_ok();
-        for design in [
-            [0.498, 0.0, 0.0, 0.0, 0.1],
-            [0.1, 3.98, 0.0, 0.0, 0.1],
-            [0.1, 0.0, -0.398, 0.0, 0.1],
-            [0.1, 0.0, 0.0, 1.59, 0.1],
-        ] {
-            assert!(fits(design), "{design:?}");
-            let more = design.map(|gain| if gain == 0.1 { gain } else { 1.01 * gain });
-            assert!(!fits(more), "{more:?}");
-        }
-        // in units of other bases: a torque of two to a speed of one halves the gains
-        let halved = Format { bases: Bases { torque: 2.0, ..Bases::SI }, ..format };
-        assert!(gains(&[0.997, 0.0, 0.0, 0.0, 0.1], 1.0, &halved).is_ok());
-        assert!(gains(&[0.1, 0.0, 0.0, 0.0, 0.1], 1.0, &format).is_ok() && !fits([0.0, 0.0, 0.0, 0.0, 0.1]));
-    }
-
     /// Each product is finite in `f32`, where its factors are.
     #[test]
     fn gains_are_finite() {
         let format = Format { bases: Bases { torque: 1e-20, ..Bases::SI }, ..Format::FLOAT };
-        let refused = |design: [f64; 5]| gains(&design, 1.0, &format).err();
-        for (design, expected) in [
-            ([1e18, 0.0, 0.0, 0.0, 1.0], None),
-            ([1e20, 0.0, 0.0, 0.0, 1.0], Some(Error::Coefficient(NO_GAIN))),
-            ([1.0, 1e9, 0.0, 0.0, 1e9], None),
-            ([1.0, 1e10, 0.0, 0.0, 1e10], Some(Error::Coefficient(NO_GAIN))),
+        for (proportional, integral, damping, period, is_right) in [
+            (1e18, 0.0, 0.0, 1.0, true),
+            (1e20, 0.0, 0.0, 1.0, false),
+            (1.0, 0.0, 1e18, 1.0, true),
+            (1.0, 0.0, -1e20, 1.0, false),
+            (1.0, 1e9, 0.0, 1e9, true),
+            (1.0, 1e10, 0.0, 1e10, false),
         ] {
-            assert_eq!(refused(design), expected, "{design:?}");
+            let law = law(proportional, integral, damping, period, &format);
+            assert_eq!(law.err(), (!is_right).then_some(Error::Coefficient(NO_GAIN)), "{proportional} {integral}");
         }
     }
 

@@ -2,15 +2,14 @@
 
 use super::constants::constants;
 use super::convert::get;
-use super::{Bases, Error, Format};
+use super::governor_parts::{GAIN, law, within_base};
+use super::{Bases, Error};
 use crate::design::SpeedLoopDesign;
 use crate::governor::{DampingLagConfig, SpeedLoopConfig};
 use crate::math::exp_m1;
 
-const GAIN: &str =
-    "a gain of the speed loop is beyond the range of its number: lower its bandwidth or raise the base of the torque";
-const TORQUE: &str = "the torque limit of the speed loop must be positive and finite, and at most twice the base of \
-    the torque in fixed point";
+const TORQUE: &str = "the torque limit of the speed loop must be positive and finite, and at most the base of the \
+    torque in fixed point";
 const RAMP: &str = "the ramp of the speed loop must be positive and finite, and within a tick at most twice the base \
     of the speed in fixed point";
 
@@ -27,38 +26,20 @@ pub struct SpeedLoopSettings {
     pub ramp: f64,
 }
 
-const fn speed_loop(design: &SpeedLoopDesign, settings: &SpeedLoopSettings, format: &Format) -> SpeedLoopConfig<f64> {
-    let Bases { torque, speed, .. } = format.bases;
-    let scale = speed / (torque * format.gain);
-    SpeedLoopConfig {
-        proportional: design.proportional * scale,
-        integral: design.integral * design.period * scale,
-        damping: -design.damping * scale,
-        anti_windup: design.integral * design.period / design.proportional,
-        torque_limit: settings.torque_limit / torque,
-        ramp: settings.ramp * design.period / speed,
-        filter: (),
-    }
-}
-
 constants! {
-    /// [`Error::Coefficient`] for a gain beyond the range of fixed point, [`Error::Value`] for a torque limit or a ramp
-    /// that is not positive and finite, or beyond its base.
+    /// [`Error::Coefficient`] for a gain that is not positive and finite, or beyond the range of fixed point;
+    /// [`Error::Value`] for a torque limit or a ramp that is not positive and finite, or beyond its base.
     impl[] SpeedLoopConfig[], new, try_new(design: &SpeedLoopDesign, settings: SpeedLoopSettings), |format| {
-        let c = speed_loop(design, &settings, &format);
-        let [proportional, integral, damping, anti_windup] =
-            get!(To::coefficients([c.proportional, c.integral, c.damping, c.anti_windup], GAIN));
-        // Operands are held within 8 bases and the integral within 2: the sum of all must stay within 8.
-        if format.unit != 1.0 && 8.0 * (c.proportional.abs() + c.integral.abs() + c.damping.abs()) > 5.99 {
-            return Err(Error::Coefficient(GAIN));
-        }
+        let Bases { torque, speed, .. } = format.bases;
+        let SpeedLoopDesign { proportional, integral, damping, period, .. } = *design;
+        let [proportional, damping, reset] = get!(law(proportional, integral, damping, period, &format));
+        let [proportional, damping, reset] = get!(To::coefficients([proportional, damping, reset], GAIN));
         Ok(SpeedLoopConfig {
             proportional,
-            integral,
             damping,
-            anti_windup,
-            torque_limit: get!(To::positive(c.torque_limit, TORQUE)),
-            ramp: get!(To::positive(c.ramp, RAMP)),
+            reset,
+            torque_limit: get!(To::positive(get!(within_base(settings.torque_limit / torque, &format, TORQUE)), TORQUE)),
+            ramp: get!(To::positive(settings.ramp * period / speed, RAMP)),
             filter: (),
         })
     }

@@ -216,15 +216,7 @@ const GOVERNED: driveline::drive::ConfigOf<Governed> = Config {
     limits: LIMITS,
     observer: UNIT,
     fluctuation: (),
-    governor: SpeedLoopConfig {
-        proportional: 0.5,
-        integral: 0.0,
-        damping: 0.0,
-        anti_windup: 0.0,
-        torque_limit: 8.0,
-        ramp: 4.0,
-        filter: (),
-    },
+    governor: SpeedLoopConfig { proportional: 0.5, damping: 0.0, reset: 0.0, torque_limit: 8.0, ramp: 4.0, filter: () },
     balancer: (),
 };
 
@@ -250,6 +242,9 @@ fn the_last_command_stands_in_for_a_torque_that_cannot_be() {
     assert_eq!(held.hold(&GOVERNED, 0, 3.0).torque, 3.0);
     // the load carries the 3 N m, so that they accelerate nothing
     assert_eq!(stand_in(held), 0.0, "after `hold` its torque stands in");
+    // the governor's limit of 8, within the sample's of 10
+    assert_eq!([9.0, -9.0].map(|torque| held.hold(&GOVERNED, 0, torque).torque), [8.0, -8.0]);
+    assert_eq!(held.estimate(&GOVERNED).load_torque, -8.0);
     held.hold(&GOVERNED, 0, 11.0);
     assert_eq!(held.estimate(&GOVERNED).load_torque, 0.0, "a torque beyond the limit holds with none");
 }

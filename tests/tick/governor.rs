@@ -11,7 +11,7 @@ use driveline::governor::{
 use driveline::number::{Coefficient, Fixed, Weight};
 use driveline::sample::Estimate;
 
-const GAINS: Gains<f64> = Gains { proportional: 1.0, integral: 0.0, anti_windup: 0.0, ramp: 10.0 };
+const GAINS: Gains<f64> = Gains { proportional: 1.0, reset: 0.0, ramp: 10.0 };
 
 fn at(speed: f64) -> Estimate<f64> {
     Estimate { motor_speed: speed, shaft_torque: 0.0, load_speed: speed, load_torque: 0.0 }
@@ -22,9 +22,8 @@ fn at(speed: f64) -> Estimate<f64> {
 fn a_start_beyond_the_torque_limit_starts_at_the_limit() {
     let config = SpeedLoopConfig::<f64> {
         proportional: 1.0,
-        integral: 0.0,
         damping: 0.0,
-        anti_windup: 0.0,
+        reset: 0.0,
         torque_limit: 50.0,
         ramp: 0.0,
         filter: (),
@@ -40,10 +39,9 @@ fn a_start_beyond_the_torque_limit_starts_at_the_limit() {
 #[test]
 fn the_speed_loop_is_the_law_on_paper() {
     let config = SpeedLoopConfig::<f64> {
-        proportional: 2.0,
-        integral: 0.5,
+        proportional: 2.5,
         damping: -3.0,
-        anti_windup: 0.0,
+        reset: 0.2,
         torque_limit: 1000.0,
         ramp: 4.0,
         filter: (),
@@ -52,7 +50,7 @@ fn the_speed_loop_is_the_law_on_paper() {
     let turning = Estimate { load_speed: 9.0, ..at(11.0) };
     governor.start(&config, &at(10.0), 6.0);
     governor.set_setpoint(12.0);
-    // error 1, twist rate 2: 6 + 1/2 + 2 (1) - 3 (2)
+    // a gain of 2 and an integral of 1/2 a tick; error 1, twist rate 2: 6 + 1/2 + 2 (1) - 3 (2)
     assert_eq!(governor.command(&config, &turning), 2.5);
     assert_eq!(governor.command(&config, &turning), 3.0);
     governor.set_setpoint(-30.0);
@@ -112,7 +110,7 @@ fn the_reach_of_a_take_up_rises_on_the_driven_flank_alone() {
     };
     for side in [1.0, -1.0] {
         let mut limit = BacklashTakeUp::<f64, SymmetricLimit>::default();
-        limit.start(side * 4.0);
+        limit.start(&config, &at(50.0), side * 4.0);
         let mut allowed = |shaft_torque: f64, wanted: f64| {
             // a twist rate of 4
             let estimate = Estimate { shaft_torque: side * shaft_torque, load_speed: 46.0, ..at(50.0) };
@@ -282,8 +280,7 @@ fn a_shaper_hands_on_the_steady_speed_and_a_trip() {
     };
     let config = InputShaperConfig { ramp: 1.0, slot: 10, share: 0.5, governor };
     let mut shaper = InputShaper::<f64, Inner, 2>::default();
-    shaper.start(&config, &at(100.0), 0.0);
-    assert!(shaper.permits());
+    assert_eq!(shaper.start(&config, &at(100.0), 0.0), 0.0);
     shaper.set_setpoint(100.0);
     shaper.set_steady_speed(Some(93.0));
     assert_eq!(shaper.command(&config, &at(100.0)), 7.0);
@@ -296,7 +293,7 @@ fn a_shaper_hands_on_the_steady_speed_and_a_trip() {
     shaper.set_steady_speed(None);
     assert_eq!(shaper.command(&config, &at(100.0)), 0.0);
     shaper.angle_lost(&config, &at(100.0));
-    assert!(!shaper.permits(), "the angle is lost");
+    assert_eq!(shaper.start(&config, &at(100.0), 5.0), 0.0, "the angle is lost: a tripped governor holds nothing");
 }
 
 #[test]
@@ -378,6 +375,31 @@ fn shapes_follow_one_another() {
     let config = (barred, (DroopConfig { droop: 0.25 }, ()));
     assert_eq!(Both::default().goal(&config, 55.0, 30.0, 1.0), (40.0, 1.0));
     assert_eq!(Both::default().lower(&config, 40.0, 8.0), 38.0);
-    // without a sequence there is nothing that forbids a torque
-    assert!(SpeedGovernor::<f64>::default().permits());
+}
+
+/// Bytes of a governor's state by its parts: integral, ramp and setpoint, and of a part what its file counts. A part
+/// without a state of its own adds none, whether alone or beside another.
+#[test]
+fn a_part_that_is_left_out_has_no_state() {
+    type With<S = (), F = (), L = SymmetricLimit, M = (), V = ()> = SpeedGovernor<f32, S, F, L, M, V>;
+    const PLAIN: usize = 3 * 4;
+    for (part, bytes, state) in [
+        ("none", size_of::<With>(), 0),
+        ("droop and barred speeds", size_of::<With<(Droop, Barred<2>)>>(), 0),
+        ("feed-forward", size_of::<With<(), FeedForward>>(), 0),
+        ("damping and acceleration", size_of::<With<(), (ActiveDamping, AccelerationFeedback)>>(), 0),
+        ("curve", size_of::<With<(), (), Curve<4>>>(), 0),
+        // the last torque
+        ("slew", size_of::<With<(), (), Slew<f32, SymmetricLimit>>>(), 4),
+        // the reach
+        ("take-up", size_of::<With<(), (), BacklashTakeUp<f32, SymmetricLimit>>>(), 4),
+        // state and cause, two counters
+        ("sequencer", size_of::<With<(), (), SymmetricLimit, Sequencer>>(), 4 + 2 * 4),
+        // a ring of speeds and torques, two sums of them, a place
+        ("moving average", size_of::<With<(), (), SymmetricLimit, (), MovingAverage<f32, 8>>>(), (2 * 8 + 4 + 1) * 4),
+        // a speed or none
+        ("cycle average", size_of::<With<(), (), SymmetricLimit, (), CycleAverage<f32>>>(), 2 * 4),
+    ] {
+        assert_eq!(bytes, PLAIN + state, "{part}");
+    }
 }

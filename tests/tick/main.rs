@@ -3,8 +3,10 @@
 //! Each test notices one deliberate error that the runs over whole machines would hide: a sign, a part left out, a
 //! state that is kept or lost. It needs the library alone, so that every mutant of the tick path is judged in seconds.
 
+mod any_design;
 #[cfg(feature = "balancing")]
 mod balancing;
+mod composed_loop;
 mod drive;
 mod fluctuation;
 mod governor;

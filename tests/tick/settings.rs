@@ -257,29 +257,32 @@ fn speed_loop(proportional: f64, integral: f64, damping: f64) -> SpeedLoopDesign
 #[test]
 fn the_constants_of_a_speed_loop() {
     let design = speed_loop(4.0, 50.0, 3.0);
-    let settings = SpeedLoopSettings { torque_limit: 400.0, ramp: 70.0 };
+    let settings = SpeedLoopSettings { torque_limit: 300.0, ramp: 70.0 };
     let si = SpeedLoopConfig::<f64>::try_new(&design, settings, BASES).unwrap();
     let fixed = SpeedLoopConfig::<Fixed>::try_new(&design, settings, BASES).unwrap();
     let gain = BASES.speed / BASES.torque / 32.0;
     for (si, fixed, value, per_unit) in [
-        (si.proportional, fixed.proportional, 4.0, gain),
-        (si.integral, fixed.integral, 50.0 * PERIOD, gain),
+        (si.proportional, fixed.proportional, 4.0 + 50.0 * PERIOD, gain),
         (si.damping, fixed.damping, -3.0, gain),
-        (si.anti_windup, fixed.anti_windup, 50.0 * PERIOD / 4.0, 1.0),
+        (si.reset, fixed.reset, 50.0 * PERIOD / (4.0 + 50.0 * PERIOD), 1.0),
     ] {
         double(si, value);
         coefficient(fixed, value * per_unit);
     }
-    assert_eq!((si.torque_limit, si.ramp), (400.0, 70.0 * PERIOD));
-    number(fixed.torque_limit, 400.0 / BASES.torque);
+    assert_eq!((si.torque_limit, si.ramp), (300.0, 70.0 * PERIOD));
+    number(fixed.torque_limit, 300.0 / BASES.torque);
     number(fixed.ramp, 70.0 * PERIOD / BASES.speed);
-    // eight times the sum of the coefficients is 5.99 at most
-    let unit = 32.0 * BASES.torque / BASES.speed;
+    // the gain of a tick within 16 per unit, the integral's part within half of it, the damping within the base of the
+    // torque at the base of the twist rate
+    let unit = BASES.torque / BASES.speed;
     for (share, is_right) in [(0.999, true), (1.001, false)] {
-        let left = |others: f64| share * 5.99 / 8.0 - others;
-        for [proportional, integral, damping] in
-            [[left(0.35), 0.15, 0.2], [0.4, left(0.6), -0.2], [0.4, 0.15, left(0.55)], [0.4, 0.15, -left(0.55)]]
-        {
+        for [proportional, integral, damping] in [
+            [share * 16.0, 0.0, 0.0],
+            [9.0, share * 16.0 - 9.0, 0.0],
+            [1.0, share, 0.0],
+            [1.0, 0.1, share * BASES.speed / BASES.twist_rate],
+            [1.0, 0.1, -share * BASES.speed / BASES.twist_rate],
+        ] {
             let design = speed_loop(proportional * unit, integral * unit / PERIOD, damping * unit);
             let tried = SpeedLoopConfig::<Fixed>::try_new(&design, settings, BASES);
             assert_eq!(tried.is_ok(), is_right, "{share} {design:?} {tried:?}");
@@ -295,7 +298,7 @@ fn the_constants_of_a_speed_loop() {
             assert!(SpeedLoopConfig::<Fixed>::try_new(&design, settings, BASES).is_err(), "{settings:?}");
         }
     }
-    for (limit, is_right) in [(2.0 * BASES.torque, true), (2.0001 * BASES.torque, false)] {
+    for (limit, is_right) in [(BASES.torque, true), (1.0001 * BASES.torque, false)] {
         let settings = SpeedLoopSettings { torque_limit: limit, ..settings };
         assert_eq!(SpeedLoopConfig::<Fixed>::try_new(&design, settings, BASES).is_ok(), is_right);
     }
@@ -322,27 +325,21 @@ fn the_constants_of_a_governor() {
     let si = Gains::<f64>::try_new(&design, 70.0, BASES).unwrap();
     let fixed = Gains::<Fixed>::try_new(&design, 70.0, BASES).unwrap();
     for (si, fixed, value, per_unit) in [
-        (si.proportional, fixed.proportional, 4.0, gain),
-        (si.integral, fixed.integral, 50.0 * PERIOD, gain),
-        (si.anti_windup, fixed.anti_windup, 50.0 * PERIOD / 4.0, 1.0),
+        (si.proportional, fixed.proportional, 4.0 + 50.0 * PERIOD, gain),
+        (si.reset, fixed.reset, 50.0 * PERIOD / (4.0 + 50.0 * PERIOD), 1.0),
     ] {
         double(si, value);
         coefficient(fixed, value * per_unit);
     }
     assert_eq!(si.ramp, 70.0 * PERIOD);
     number(fixed.ramp, 70.0 * PERIOD / BASES.speed);
-    // eight times the coefficients and twice the acceleration's are 3.99 at most
-    let unit = 32.0 * BASES.torque / BASES.speed;
+    // the gain of a tick within 16 per unit, the integral's part within 1/2 of it
+    let unit = BASES.torque / BASES.speed;
     for (share, is_right) in [(0.999, true), (1.001, false)] {
-        let left = |others: f64| share * (3.99 - 0.6) / 8.0 - others;
-        for [proportional, integral] in [[left(0.1), 0.1], [0.3, left(0.3)]] {
+        for [proportional, integral] in [[share * 16.0, 0.0], [9.0, share * 16.0 - 9.0], [1.0, share]] {
             let design = governor(proportional * unit, integral * unit / PERIOD, 0.3);
             assert_eq!(Gains::<Fixed>::try_new(&design, 70.0, BASES).is_ok(), is_right, "{share} {design:?}");
             assert!(Gains::<f32>::try_new(&design, 70.0, BASES).is_ok());
-        }
-        for slip in [0.1, -0.1] {
-            let design = speed_loop((share * 3.99 / 8.0 - 0.2) * unit, 0.1 * unit / PERIOD, slip * unit);
-            assert_eq!(Gains::<Fixed>::try_of_speed_loop(&design, 70.0, BASES).is_ok(), is_right, "{design:?}");
         }
     }
     let of_loop = Gains::<f64>::try_of_speed_loop(&speed_loop(4.0, 50.0, 3.0), 70.0, BASES).unwrap();
@@ -350,7 +347,7 @@ fn the_constants_of_a_governor() {
     for proportional in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(Gains::<f64>::try_new(&governor(proportional, 50.0, 0.3), 70.0, BASES).is_err(), "{proportional}");
     }
-    for integral in [f64::NAN, f64::INFINITY] {
+    for integral in [-1.0, f64::NAN, f64::INFINITY] {
         assert!(Gains::<f64>::try_new(&governor(4.0, integral, 0.3), 70.0, BASES).is_err(), "{integral}");
     }
     for ramp in [0.0, -70.0, f64::NAN, f64::INFINITY, 1e43] {
@@ -407,13 +404,13 @@ fn the_constants_of_a_governors_parts() {
     let fixed = ActiveDampingConfig::<Fixed>::try_new(&speed_loop(4.0, 50.0, 3.0), BASES).unwrap();
     coefficient(fixed.damping, -3.0 * BASES.speed / BASES.torque / 32.0);
     assert!(ActiveDampingConfig::<f32>::try_new(&speed_loop(4.0, 50.0, f64::NAN), BASES).is_err());
-    assert_eq!(SymmetricLimitConfig::<f64>::try_new(400.0, BASES).unwrap().torque, 400.0);
-    number(SymmetricLimitConfig::<Fixed>::try_new(400.0, BASES).unwrap().torque, 400.0 / BASES.torque);
-    let range = TorqueRangeConfig::<f64>::try_new(-40.0, 400.0, BASES).unwrap();
-    assert_eq!((range.min, range.max), (-40.0, 400.0));
-    let range = TorqueRangeConfig::<Fixed>::try_new(-40.0, 400.0, BASES).unwrap();
+    assert_eq!(SymmetricLimitConfig::<f64>::try_new(300.0, BASES).unwrap().torque, 300.0);
+    number(SymmetricLimitConfig::<Fixed>::try_new(300.0, BASES).unwrap().torque, 300.0 / BASES.torque);
+    let range = TorqueRangeConfig::<f64>::try_new(-40.0, 300.0, BASES).unwrap();
+    assert_eq!((range.min, range.max), (-40.0, 300.0));
+    let range = TorqueRangeConfig::<Fixed>::try_new(-40.0, 300.0, BASES).unwrap();
     number(range.min, -40.0 / BASES.torque);
-    number(range.max, 400.0 / BASES.torque);
+    number(range.max, 300.0 / BASES.torque);
     for (min, max, is_right) in [
         (0.0, 1.0, true),
         (1e-9, 1.0, false),
@@ -426,7 +423,7 @@ fn the_constants_of_a_governors_parts() {
     ] {
         assert_eq!(TorqueRangeConfig::<f32>::try_new(min, max, BASES).is_ok(), is_right, "{min} {max}");
     }
-    for (most, is_right) in [(2.0, true), (2.0001, false)] {
+    for (most, is_right) in [(1.0, true), (1.0001, false)] {
         let torque = most * BASES.torque;
         assert_eq!(TorqueRangeConfig::<Fixed>::try_new(-torque, 1.0, BASES).is_ok(), is_right);
         assert_eq!(SymmetricLimitConfig::<Fixed>::try_new(torque, BASES).is_ok(), is_right);

@@ -48,9 +48,8 @@ fn a_switch_of_a_speed_loop_with_lags_is_bumpless() {
     type Lagged = SpeedLoop<f64, (SetpointLag<f64>, DampingLag<f64>)>;
     let config = |proportional, damping| SpeedLoopConfig {
         proportional,
-        integral: 0.0,
         damping,
-        anti_windup: 0.0,
+        reset: 0.0,
         torque_limit: 1000.0,
         ramp: 4.0,
         filter: ((), DampingLagConfig { share: 1.0 }),
@@ -76,15 +75,7 @@ fn a_switch_of_a_drive_is_bumpless() {
         limits: Limits { torque: 1e3, setpoint: 1e3, innovation: 1e3, frozen_turn: 1e3, max_coast: 3 },
         observer: two_mass(share, stiffness),
         fluctuation: (),
-        governor: SpeedLoopConfig {
-            proportional,
-            integral: 0.0,
-            damping,
-            anti_windup: 0.0,
-            torque_limit: 1e3,
-            ramp: 8.0,
-            filter: (),
-        },
+        governor: SpeedLoopConfig { proportional, damping, reset: 0.0, torque_limit: 1e3, ramp: 8.0, filter: () },
         balancer: (),
     };
     let (from, to) = (config(2.0, -3.0, [0.25, -0.75], 2.0), config(5.0, 1.0, [0.75, -0.25], 8.0));
@@ -106,7 +97,7 @@ fn a_switch_of_a_drive_is_bumpless() {
 fn a_switch_of_gain_droop_and_feed_forward_is_bumpless() {
     type Drooped = SpeedGovernor<f64, (Droop, ()), (FeedForward, ()), SymmetricLimit, (), CycleAverage<f64>>;
     let config = |proportional, droop, share| SpeedGovernorConfig {
-        gains: Gains { proportional, integral: 0.0, anti_windup: 0.0, ramp: 0.0 },
+        gains: Gains { proportional, reset: 0.0, ramp: 0.0 },
         shape: (DroopConfig { droop }, ()),
         compensation: (FeedForwardConfig { share }, ()),
         limit: SymmetricLimitConfig { torque: 100.0 },

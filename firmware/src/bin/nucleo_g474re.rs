@@ -16,6 +16,7 @@ use cortex_m::interrupt::free;
 use cortex_m::peripheral::{DWT, NVIC};
 use cortex_m_rt::entry;
 use driveline::configure::Machine;
+use driveline::number::Number;
 use driveline::telemetry::{Channel as Column, Kind, Ring};
 use driveline_firmware::board::nucleo_g474re::{
     Beside, Channel, Nucleo, Pin, Serial, Vibration, full_scale, start_tick, tick_taken,
@@ -163,8 +164,9 @@ fn main() -> ! {
     }
 }
 
-/// Answers: a time-out beyond the longest, requests before this one are missing.
+/// Answers: a time-out beyond the longest, a speed beyond its limit, requests before this one are missing.
 const NO_TIMEOUT: u32 = refused(0);
+const NO_SPEED: u32 = refused(97);
 const REQUEST_MISSING: u32 = refused(98);
 
 /// Tasks of the main loop: the terminal, the balancing and the fluctuation.
@@ -180,12 +182,12 @@ impl Desk {
     fn serve(&mut self) {
         while let Some(byte) = self.serial.receive() {
             if let Some(request) = self.asking.take(byte) {
-                with_operator(Operator::heard);
                 let answer = match self.sequence.turn(&request) {
                     serial_request::Turn::Next => self.answer(&request),
                     serial_request::Turn::Repeated => continue,
                     serial_request::Turn::Missing => REQUEST_MISSING,
                 };
+                with_operator(|operator| operator.answered(answer));
                 // no record has one request's number beside another's answer
                 free(|_| {
                     for (kept, value) in ANSWER.iter().zip([answer, request.number.into()]) {
@@ -209,8 +211,8 @@ impl Desk {
             }
             (TIMEOUT, ms) if with_operator(|operator| operator.set_timeout(ms)) => DONE,
             (TIMEOUT, _) => NO_TIMEOUT,
+            (SPEED, _) if f32::from_bits(value).exceeds(<Selected as Constants>::CONFIG.limits.setpoint) => NO_SPEED,
             (SPEED, _) => {
-                // a value that is no speed is refused by the drive, and flagged
                 REFERENCE.store(value, Ordering::Relaxed);
                 DONE
             }

@@ -3,6 +3,8 @@
 //! A start needs both. The terminal permits it for ten seconds, and in that time the button is pressed and let go. So
 //! no sequence of bytes starts the drive, and no button that is touched by accident or stuck. Either one stops it.
 
+use crate::scene::panel_keys::is_refusal;
+
 /// Ticks that a permit lasts: ten seconds at 10 kHz, to get from the terminal to the button.
 pub const PERMIT: u32 = 100_000;
 /// Ticks after which a level of the button stands: 10 ms at 10 kHz. Contacts bounce for a few milliseconds.
@@ -18,9 +20,9 @@ pub struct Operator {
     running: bool,
     /// Ticks that are left of a permit.
     permit: u32,
-    /// Ticks without a request that stop the drive; 0 for none.
+    /// Ticks without a request carried out that stop the drive; 0 for none.
     timeout: u32,
-    /// Ticks since the last request.
+    /// Ticks since the last request that was carried out.
     silent: u32,
     /// The button's level at rest.
     resting: bool,
@@ -83,7 +85,7 @@ impl Operator {
         (self.running, self.permit, self.begun) = (false, 0, false);
     }
 
-    /// Sets the time without a request after which a running drive stops (ms); 0 is none. Whether it can be had.
+    /// Sets the time without a request carried out after which a running drive stops (ms); 0 is none. Whether it can be had.
     pub fn set_timeout(&mut self, ms: u32) -> bool {
         if ms > LONGEST_MS {
             return false;
@@ -92,8 +94,11 @@ impl Operator {
         true
     }
 
-    /// A request has arrived whole.
-    pub fn heard(&mut self) {
-        self.silent = 0;
+    /// A request has this answer. One that is refused does not keep the time-out from running: its terminal may send
+    /// anything.
+    pub fn answered(&mut self, answer: u32) {
+        if !is_refusal(answer) {
+            self.silent = 0;
+        }
     }
 }

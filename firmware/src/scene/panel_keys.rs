@@ -108,3 +108,9 @@ pub const REFUSED: u32 = 2;
 pub const fn refused(number: u32) -> u32 {
     REFUSED + number
 }
+
+/// Whether an answer refuses. Figures are bits of floats, which are above; a count or a next step among these answers
+/// is taken for a refusal.
+pub const fn is_refusal(answer: u32) -> bool {
+    answer >= REFUSED && answer <= 0xff
+}

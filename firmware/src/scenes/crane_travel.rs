@@ -78,7 +78,8 @@ impl Machine for StiffTravel {
     /// one of 0.05 less than 6 dB below.
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 4.0, damping: 1.0, shaft_damping: 0.03 };
     const RAMP: f64 = CraneTravel::RAMP;
-    const BASES: Bases = CraneTravel::BASES;
+    /// Twice that of the other governor: its damping, of the whole swing, is within the base.
+    const BASES: Bases = Bases::new(&Self::TWO_MASS, 4.0 * Self::RATING.torque_limit, 1.34 * Self::RATING.speed);
     const SCREENING: Screening = CraneTravel::SCREENING;
 }
 

@@ -67,8 +67,12 @@ proptest! {
         prop_assert_eq!(i128::from(number.braked(()).to_bits()), held(wide, -(1 << 25), (1 << 25) - 1) << 4);
         prop_assert_eq!(number.innovation_operand().to_bits(), wrapped(wide << INNOVATION_SHIFT));
         prop_assert_eq!(i128::from(number.saturated().to_bits()), held(wide, -(1 << 29), (1 << 29) - 1));
-        let gained = held(wide, -(1 << 26), (1 << 26) - 1) << GAIN_SHIFT;
-        prop_assert_eq!(i128::from(number.gain_operand().to_bits()), gained);
+        let gained = |bases: i128| {
+            let most = bases << (28 - GAIN_SHIFT);
+            held((wide * i128::from(c)) >> 32, -most, most - 1) << GAIN_SHIFT
+        };
+        prop_assert_eq!(i128::from(number.gained::<1>(coefficient(c)).to_bits()), gained(1));
+        prop_assert_eq!(i128::from(number.gained::<4>(coefficient(c)).to_bits()), gained(4));
         let speed = held((wide * i128::from(c)) >> (32 - SPEED_SHIFT), -(1 << 30), 1 << 30);
         prop_assert_eq!(i128::from(number.speed_of_turn(coefficient(c)).to_bits()), speed);
         // A negative number comes out a unit short, as documented.
@@ -90,7 +94,7 @@ proptest! {
     }
 
     #[test]
-    fn beyond_the_base(states in [bits(), bits(), bits()]) {
+    fn beyond_the_base(states in [bits(), bits(), bits(), bits()]) {
         let states = states.map(|x| Fixed::from_bits(x).saturated().to_bits());
         // From -2^28, the base itself, to just under it.
         let beyond = states.iter().any(|&x| !(-(1 << 28)..1 << 28).contains(&x));

@@ -151,7 +151,7 @@ fn the_torque_builds_up_on_the_driven_flank_alone() {
 /// proportional gain: 10 over 50.
 #[test]
 fn the_ramp_waits_for_the_take_up() {
-    let gains = Gains { proportional: 50.0, integral: 0.0, anti_windup: 0.0, ramp: 0.01 };
+    let gains = Gains { proportional: 50.0, reset: 0.0, ramp: 0.01 };
     let config = SpeedGovernorConfig { gains, shape: (), compensation: (), limit: ROUND, sequence: (), filter: () };
     let mut governor = SpeedGovernor::<f64, (), (), BacklashTakeUp<f64, SymmetricLimit>>::default();
     governor.start(&config, &carrying(0.0), 0.0);

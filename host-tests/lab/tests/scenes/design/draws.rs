@@ -3,7 +3,7 @@
 //! By the closed forms alone: the chain with all its vibrations, sampled, and a speed loop designed for the machine as
 //! described. `closed_loop.rs` tests them against the full plant.
 
-use driveline::configure::{Configure, LoopPart, Machine};
+use driveline::configure::{Configure, GainSource, LoopPart, Machine};
 use driveline::design::{
     Actuator, ClosedLoop, Disturbance, Encoder, LoopObserver, Plant, Rate, Robustness, SpeedLoopDesign,
     SpeedLoopTuning, Spread, Tolerance,
@@ -63,8 +63,8 @@ impl Scene<'_> {
     fn close(&self, late: f64, lag: f64) -> ClosedLoop {
         let actuator = Actuator { delay: late * self.speed_loop.period, lag };
         match &self.observer {
-            LoopPart::TwoMass(design) => ClosedLoop::of(design, &self.speed_loop, actuator),
-            LoopPart::Rigid(design) => ClosedLoop::of_rigid(design, &self.speed_loop, actuator),
+            LoopPart { two_mass: Some(design), .. } => ClosedLoop::of(design, &self.speed_loop, actuator),
+            LoopPart { rigid: Some(design), .. } => ClosedLoop::of_rigid(design, &self.speed_loop, actuator),
             part => panic!("{}: {part:?} is no observer", self.name),
         }
         .unwrap()
@@ -106,7 +106,8 @@ where
     S::Drive: Looped<M>,
 {
     let (observer, governor) = <S::Drive as Looped<M>>::LOOP;
-    let LoopPart::SpeedLoop(speed_loop) = governor else { panic!("{name}: {governor:?} is no speed loop") };
+    let Some(GainSource::SpeedLoop(design)) = governor.gains else { panic!("{name}: {governor:?} is no speed loop") };
+    let speed_loop = SpeedLoopDesign { damping: design.damping + governor.damping, ..design };
     Scene { name, chain: M::CHAIN, tolerance: M::TOLERANCE, observer, speed_loop }
 }
 

@@ -221,7 +221,9 @@ impl Governor<f64> for Probe {
         self.0
     }
 
-    fn start(&mut self, _: &(), _: &Estimate<f64>, _: f64) {}
+    fn start(&mut self, _: &(), _: &Estimate<f64>, torque: f64) -> f64 {
+        torque
+    }
 }
 
 /// What changes of a setpoint, tick by tick, leave in a vibration, but for its decay since: `sum du exp(s t)`.

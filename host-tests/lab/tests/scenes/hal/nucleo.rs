@@ -9,6 +9,7 @@ use driveline_firmware::board::nucleo_g474re::ring_reader::RingReader;
 use driveline_firmware::board::nucleo_g474re::{DEAD_TIME, PHASE_PINS, PWM_HZ, full_scale};
 use driveline_firmware::panel::operator::{Operator, PERMIT, STANDS};
 use driveline_firmware::panel::serial_request::{Asking, RELEASE, Request, SEQUENCE, SPEED, Sequence, Turn};
+use driveline_firmware::scene::panel_keys::{DONE, refused};
 use driveline_hal::{FullScale, PhaseConfig, PwmTorque, ThreePhase};
 use embedded_hal::pwm::{ErrorType, SetDutyCycle};
 use proptest::prelude::*;
@@ -79,7 +80,7 @@ proptest! {
                 (0, _) => operator.permit(),
                 (1, _) => operator.stop(),
                 (2, ms) => { operator.set_timeout(ms); }
-                _ => operator.heard(),
+                _ => operator.answered(value),
             }
             for _ in 0..value % 300 {
                 prop_assert!(!operator.tick(rests));
@@ -192,21 +193,44 @@ fn a_contact_counts_when_it_has_stood_for_ten_milliseconds() {
     assert!(!desk.ticks(10 * STANDS, false));
 }
 
+/// A terminal that sends without end, and is refused each time, does not keep the drive running.
+#[test]
+fn refused_requests_keep_no_drive_running() {
+    for number in [0, 1, 44, 97, 98] {
+        let mut desk = Desk::running();
+        desk.0.set_timeout(500);
+        desk.0.answered(DONE);
+        for _ in 0..50 {
+            desk.0.answered(refused(number));
+            assert!(desk.ticks(100, false));
+        }
+        desk.0.answered(refused(number));
+        assert!(!desk.ticks(1, false), "{number}");
+    }
+    // a figure that was read counts
+    let mut desk = Desk::running();
+    desk.0.set_timeout(500);
+    for _ in 0..50 {
+        desk.0.answered(1.5_f32.to_bits());
+        assert!(desk.ticks(5_000, false));
+    }
+}
+
 #[test]
 fn a_line_that_goes_dead_stops_a_running_drive_if_so_set() {
     let mut desk = Desk::running();
     assert!(desk.ticks(1_000_000, false), "no time-out was set");
     assert!(desk.0.set_timeout(500));
-    desk.0.heard();
+    desk.0.answered(DONE);
     // 500 ms at 10 kHz
     assert!(desk.ticks(5_000, false));
     assert!(!desk.ticks(1, false));
-    desk.0.heard();
+    desk.0.answered(DONE);
     assert!(!desk.ticks(100, false), "it starts again by the operator alone");
     let mut desk = Desk::running();
     desk.0.set_timeout(500);
     for _ in 0..100 {
-        desk.0.heard();
+        desk.0.answered(DONE);
         assert!(desk.ticks(5_000, false));
     }
     assert!(!desk.0.set_timeout(60_001), "above a minute");

@@ -1,0 +1,390 @@
+//! Laws of any drive that the `try_` functions accept, on random designs with extreme values: no torque is NaN or
+//! beyond its limit, whatever the drive is told and by whatever function, and the numbers agree.
+//!
+//! The machine is integrated here, by sub-steps of the two masses' own equations. A sample of the designs;
+//! `DESIGNS=500000` in the environment draws more.
+
+use driveline::design::{Disturbance, Encoder, LoadFeedForward, Rate, SpeedLoopTuning};
+use driveline::drive::{Composition, Config, ConfigOf, Drive, Limits};
+use driveline::fault::Faults;
+use driveline::governor::{
+    ActiveDamping, ActiveDampingConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Governor, Slew,
+    SlewConfig, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, SymmetricLimit, SymmetricLimitConfig,
+};
+use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
+use driveline::number::{Fixed, Number};
+use driveline::observer::{Observer, TwoMassConfig, TwoMassObserver};
+use driveline::sample::{Command, Sample};
+use driveline::settings::{Bases, Screening, SpeedLoopSettings};
+
+/// SplitMix64 [Steele, Lea and Flood 2014].
+struct Random(u64);
+
+impl Random {
+    fn word(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.word() >> 11) as f64 / 9_007_199_254_740_992.0
+    }
+
+    /// Even in its logarithm.
+    fn decades(&mut self, low: f64, high: f64) -> f64 {
+        10.0_f64.powf(self.between(low, high))
+    }
+
+    fn one_of<T: Copy, const K: usize>(&mut self, values: [T; K]) -> T {
+        values[(self.word() % K as u64) as usize]
+    }
+}
+
+/// A machine with what its drive is designed from.
+struct Drawn {
+    machine: TwoMass,
+    period: f64,
+    encoder: Encoder,
+    disturbance: Disturbance,
+    tuning: SpeedLoopTuning,
+    forward: LoadFeedForward,
+    factor: f64,
+    torque_limit: f64,
+    speed: f64,
+    bases: Bases,
+    ramp: f64,
+    slew: f64,
+    droop: f64,
+}
+
+fn draw(random: &mut Random) -> Drawn {
+    let period = random.decades(-4.5, -2.0);
+    let motor = random.decades(-5.0, 4.0);
+    let load = motor * random.decades(-1.5, 2.0);
+    let resonance = random.decades(-2.5, 0.0) / period;
+    let reduced = motor * load / (motor + load);
+    let damping = 2.0 * random.decades(-4.0, -0.5) * reduced * resonance;
+    let machine =
+        TwoMass::new(Inertia(motor), Inertia(load), Stiffness(reduced * resonance * resonance), Damping(damping));
+    // Rated speed below a quarter of a turn in a tick; its limit accelerates to that in 3 to 30,000 ticks.
+    let speed = random.decades(-3.0, -0.2) / period;
+    let torque_limit = (motor + load) * speed / (period * random.decades(0.5, 4.5));
+    let bandwidth = if random.word().is_multiple_of(8) { random.between(1.5, 6.0) } else { random.between(0.05, 0.95) };
+    let mut tuning = SpeedLoopTuning::with_bandwidth(&machine, bandwidth.min(0.95));
+    tuning.bandwidth = bandwidth;
+    if random.word().is_multiple_of(4) {
+        tuning =
+            SpeedLoopTuning { bandwidth, damping: random.decades(-1.0, 1.5), shaft_damping: random.decades(-2.0, 0.5) };
+    }
+    let base = torque_limit * random.one_of([1.0, 1.5, 2.0, 4.0]);
+    Drawn {
+        machine,
+        period,
+        encoder: Encoder::counts(1 << (random.word() % 16 + 8)),
+        disturbance: Disturbance {
+            torque_accuracy: torque_limit * random.decades(-3.0, -1.0),
+            load_torque_step: torque_limit * random.decades(-2.0, 0.0),
+            within: period * random.decades(0.5, 3.0),
+        },
+        tuning,
+        forward: LoadFeedForward { share: random.between(0.0, 1.0), lag: period * random.decades(0.0, 2.0) },
+        factor: random.between(1.5, 4.0),
+        torque_limit,
+        speed,
+        bases: Bases::new(&machine, base, speed * random.one_of([1.0, 1.34, 2.0, 8.0])),
+        ramp: speed / (period * random.decades(0.0, 4.0)),
+        slew: torque_limit / (period * random.decades(-1.0, 3.0)),
+        droop: random.one_of([0.0, 0.03, 0.3]),
+    }
+}
+
+/// The machine, by its own equations.
+struct Plant {
+    machine: TwoMass,
+    angle: f64,
+    twist: f64,
+    speeds: [f64; 2],
+}
+
+impl Plant {
+    fn advance(&mut self, torque: f64, load_torque: f64, period: f64) {
+        let TwoMass { motor_inertia, load_inertia, stiffness, damping, .. } = self.machine;
+        let steps = (20.0 * self.machine.resonance() * period).ceil().max(1.0);
+        let h = period / steps;
+        for _ in 0..steps as u32 {
+            let shaft = stiffness * self.twist + damping * (self.speeds[0] - self.speeds[1]);
+            self.speeds[0] += h * (torque - shaft) / motor_inertia;
+            self.speeds[1] += h * (shaft - load_torque) / load_inertia;
+            self.twist += h * (self.speeds[0] - self.speeds[1]);
+            self.angle += h * self.speeds[0];
+        }
+    }
+
+    fn word(&self, encoder: Encoder) -> u32 {
+        let count = encoder.resolution().unwrap();
+        let turns = (self.angle / count).floor() * count / std::f64::consts::TAU;
+        (turns.rem_euclid(1.0) * 4_294_967_296.0) as u64 as u32
+    }
+}
+
+/// SI to the number and back.
+trait Scale: Number {
+    fn of(value: f64, base: f64) -> Self;
+    fn si(self, base: f64) -> f64;
+}
+
+macro_rules! float {
+    ($($float:ident)*) => {$(
+        impl Scale for $float {
+            fn of(value: f64, _: f64) -> Self {
+                value as $float
+            }
+            fn si(self, _: f64) -> f64 {
+                self.into()
+            }
+        }
+    )*};
+}
+
+float!(f32 f64);
+
+impl Scale for Fixed {
+    fn of(value: f64, base: f64) -> Self {
+        // a NaN is beyond every limit, as `configure::Units` has it
+        if value.is_nan() { Fixed::from_bits(i32::MAX) } else { Fixed::from_f64(value / base) }
+    }
+    fn si(self, base: f64) -> f64 {
+        self.to_f64() * base
+    }
+}
+
+type Plain<N> = Drive<N, TwoMassObserver<N>, (), SpeedLoop<N>>;
+type Composed<N> =
+    Drive<N, TwoMassObserver<N>, (), SpeedGovernor<N, Droop, (FeedForward, ActiveDamping), Slew<N, SymmetricLimit>>>;
+type Slewed<N> = Drive<N, TwoMassObserver<N>, (), SpeedGovernor<N, (), (), Slew<N, SymmetricLimit>>>;
+
+/// A drive with what the test does to it.
+trait Tried {
+    fn tick(&mut self, sample: [f64; 2], angle: u32) -> (f64, Faults);
+    fn coast(&mut self, sample: [f64; 2]) -> (f64, Faults);
+    fn hold(&mut self, torque: f64, angle: u32) -> (f64, Faults);
+    fn after(&mut self, sample: [f64; 2], angle: u32, missed: u32) -> (f64, Faults);
+    fn engage(&mut self);
+    fn switch(&mut self);
+}
+
+/// A drive, constants to switch between, and bases.
+struct Held<D: Composition>(D, [ConfigOf<D>; 2], Bases);
+
+impl<N, O, G> Tried for Held<Drive<N, O, (), G>>
+where
+    N: Scale,
+    O: Observer<N>,
+    G: Governor<N>,
+{
+    fn tick(&mut self, [torque, setpoint]: [f64; 2], angle: u32) -> (f64, Faults) {
+        let Bases { torque: base, speed, .. } = self.2;
+        let sample = Sample { angle, torque: N::of(torque, base), setpoint: N::of(setpoint, speed) };
+        let Command { torque, faults } = self.0.tick(&self.1[0], &sample);
+        (torque.si(base), faults)
+    }
+    fn coast(&mut self, [torque, setpoint]: [f64; 2]) -> (f64, Faults) {
+        let Bases { torque: base, speed, .. } = self.2;
+        let Command { torque, faults } = self.0.coast(&self.1[0], N::of(torque, base), N::of(setpoint, speed));
+        (torque.si(base), faults)
+    }
+    fn hold(&mut self, torque: f64, angle: u32) -> (f64, Faults) {
+        let Command { torque, faults } = self.0.hold(&self.1[0], angle, N::of(torque, self.2.torque));
+        (torque.si(self.2.torque), faults)
+    }
+    fn after(&mut self, [torque, setpoint]: [f64; 2], angle: u32, missed: u32) -> (f64, Faults) {
+        let Bases { torque: base, speed, .. } = self.2;
+        let sample = Sample { angle, torque: N::of(torque, base), setpoint: N::of(setpoint, speed) };
+        let Command { torque, faults } = self.0.tick_after(&self.1[0], &sample, missed);
+        (torque.si(base), faults)
+    }
+    fn engage(&mut self) {
+        self.0.engage(&self.1[0]);
+    }
+    fn switch(&mut self) {
+        self.0.switch(&self.1[0], &self.1[1]);
+        self.1.swap(0, 1);
+    }
+}
+
+/// The drives of a design in each number, or none where one of them is refused.
+macro_rules! drives {
+    ($number:ident, $drawn:expr, $kind:expr) => {{
+        type N = $number;
+        (|| -> Option<Box<dyn Tried>> {
+            let drawn: &Drawn = $drawn;
+            let bases = if <N as Number>::ONE.to_word() == 1 << 28 { drawn.bases } else { Bases::SI };
+            let rate = Rate::every(drawn.period);
+            let screening = Screening {
+                torque: 1.67 * drawn.torque_limit.min(drawn.bases.torque),
+                setpoint: drawn.speed,
+                innovation: 0.09,
+                frozen_turn: drawn.speed * drawn.period,
+                max_coast: 20,
+            };
+            let limits = Limits::<N>::try_new(&screening, bases).ok()?;
+            let design = drawn.machine.try_observer(rate, drawn.encoder, drawn.disturbance).ok()?;
+            let observer = TwoMassConfig::<N>::try_new(&design, bases).ok()?;
+            let speed_loop = drawn.machine.try_speed_loop(rate, drawn.tuning).ok()?;
+            let softer = SpeedLoopTuning { bandwidth: 0.5 * drawn.tuning.bandwidth.min(1.0), ..drawn.tuning };
+            let softer = drawn.machine.try_speed_loop(rate, softer).ok()?;
+            let limit = SymmetricLimitConfig::<N>::try_new(drawn.torque_limit, bases).ok()?;
+            let slew = SlewConfig::<N, _>::try_new(drawn.slew, limit, drawn.period, bases).ok()?;
+            let whole = |governor| Config { limits, observer, fluctuation: (), governor, balancer: () };
+            let governed = |governor| Config { limits, observer, fluctuation: (), governor, balancer: () };
+            Some(match $kind {
+                0 => {
+                    let settings = SpeedLoopSettings { torque_limit: drawn.torque_limit, ramp: drawn.ramp };
+                    let first = whole(SpeedLoopConfig::<N>::try_new(&speed_loop, settings, bases).ok()?);
+                    let second = whole(SpeedLoopConfig::<N>::try_new(&softer, settings, bases).ok()?);
+                    Box::new(Held(Plain::<N>::new(&first, 0), [first, second], drawn.bases))
+                }
+                1 => {
+                    let with = |design| {
+                        Some(SpeedGovernorConfig {
+                            gains: Gains::<N>::try_of_speed_loop(design, drawn.ramp, bases).ok()?,
+                            shape: DroopConfig::<N>::try_new(drawn.droop, drawn.speed, drawn.torque_limit, bases)
+                                .ok()?,
+                            compensation: (
+                                FeedForwardConfig::<N>::try_new(drawn.forward.share, bases).ok()?,
+                                ActiveDampingConfig::<N>::try_new(design, bases).ok()?,
+                            ),
+                            limit: slew,
+                            sequence: (),
+                            filter: (),
+                        })
+                    };
+                    let (first, second) = (governed(with(&speed_loop)?), governed(with(&softer)?));
+                    Box::new(Held(Composed::<N>::new(&first, 0), [first, second], drawn.bases))
+                }
+                _ => {
+                    let actuator = driveline::design::Actuator { delay: 5.0 * drawn.period, lag: 10.0 * drawn.period };
+                    let with = |factor| {
+                        let design = drawn.machine.try_governor(rate, actuator, factor, LoadFeedForward::NONE).ok()?;
+                        let gains = Gains::<N>::try_new(&design, drawn.ramp, bases).ok()?;
+                        Some(SpeedGovernorConfig {
+                            gains,
+                            shape: (),
+                            compensation: (),
+                            limit: slew,
+                            sequence: (),
+                            filter: (),
+                        })
+                    };
+                    let governed = |governor| Config { limits, observer, fluctuation: (), governor, balancer: () };
+                    let (first, second) = (governed(with(drawn.factor)?), governed(with(2.0 * drawn.factor)?));
+                    Box::new(Held(Slewed::<N>::new(&first, 0), [first, second], drawn.bases))
+                }
+            })
+        })()
+    }};
+}
+
+/// Of how many designs the test draws; of those accepted, how many raised a flag before they were through.
+#[derive(Debug, Default)]
+struct Tally {
+    drawn: u32,
+    accepted: u32,
+    flagged: u32,
+    /// Largest difference of the numbers over the limit, without a flag.
+    apart: f64,
+}
+
+/// One design: driven to both limits, then told anything.
+fn try_one(seed: u64, tally: &mut Tally) {
+    let random = &mut Random(seed);
+    let mut drawn = draw(random);
+    let kind = random.word() % 3;
+    tally.drawn += 1;
+    let (Some(single), Some(double)) = (drives!(f32, &drawn, kind), drives!(f64, &drawn, kind)) else { return };
+    // the first bases that hold the coefficients, as a machine's own are found
+    let Bases { torque, speed, .. } = drawn.bases;
+    let found = (0..6).find_map(|doubling| {
+        drawn.bases = Bases::new(&drawn.machine, torque * f64::from(1 << doubling), speed);
+        drives!(Fixed, &drawn, kind)
+    });
+    let Some(fixed) = found else { return };
+    tally.accepted += 1;
+    let mut drives = [single, double, fixed];
+    let limit = drawn.torque_limit;
+    let within = |torque: f64, what: &str| {
+        // rounding of the limit to a number
+        assert!(
+            torque.abs() <= limit * (1.0 + 1e-7) + drawn.bases.torque * 2.0_f64.powi(-28),
+            "{seed} {what}: {torque} of {limit}"
+        );
+    };
+    let mut plant = Plant { machine: drawn.machine, angle: 0.0, twist: 0.0, speeds: [0.0; 2] };
+    let (mut torque, mut flags) = (0.0, Faults::NONE);
+    let load_torque = random.between(-0.5, 0.5) * limit;
+    for tick in 0..400 {
+        let setpoint = match tick / 100 {
+            0 => drawn.speed,
+            1 => -drawn.speed,
+            2 => 0.1 * drawn.speed,
+            _ => drawn.speed * if tick % 20 < 10 { 1.0 } else { -1.0 },
+        };
+        let angle = plant.word(drawn.encoder);
+        if tick == 250 {
+            drives.iter_mut().for_each(|drive| drive.switch());
+        }
+        let [one, two, three] = drives.each_mut().map(|drive| drive.tick([torque, setpoint], angle));
+        flags |= one.1 | two.1 | three.1;
+        for ((torque, _), what) in [one, two, three].into_iter().zip(["f32", "f64", "fixed"]) {
+            within(torque, what);
+        }
+        if flags == Faults::NONE {
+            let apart = (one.0 - three.0).abs().max((two.0 - three.0).abs()).max((one.0 - two.0).abs()) / limit;
+            assert!(apart <= 0.01, "{seed} kind {kind} tick {tick}: {} {} {} of {limit}", one.0, two.0, three.0);
+            tally.apart = tally.apart.max(apart);
+        }
+        torque = two.0;
+        plant.advance(torque, load_torque, drawn.period);
+    }
+    tally.flagged += u32::from(flags != Faults::NONE);
+    // From saturation: anything that a caller may say.
+    for _ in 0..60 {
+        let wild = [0.0, -0.0, limit, -limit, 1.6 * limit, -1.6 * limit, 1e-40, f64::NAN, f64::INFINITY, -1e300];
+        let (torque, missed) = (random.one_of(wild), random.word() as u32 % 12);
+        let setpoint = random.one_of([drawn.speed, -drawn.speed, f64::NAN, f64::NEG_INFINITY, 1e30, 0.0]);
+        let angle = if random.word().is_multiple_of(2) { random.word() as u32 } else { plant.word(drawn.encoder) };
+        let act = random.word() % 7;
+        for drive in &mut drives {
+            let (torque, _) = match act {
+                0 => drive.hold(torque, angle),
+                1 => drive.coast([torque, setpoint]),
+                2 => drive.after([torque, setpoint], angle, missed),
+                3 => {
+                    drive.engage();
+                    drive.tick([torque, setpoint], angle)
+                }
+                4 => {
+                    drive.switch();
+                    drive.tick([torque, setpoint], angle)
+                }
+                _ => drive.tick([torque, setpoint], angle),
+            };
+            within(torque, "anything");
+        }
+    }
+}
+
+#[test]
+fn any_accepted_design_keeps_its_limit_and_the_numbers_agree() {
+    let designs = std::env::var("DESIGNS").ok().and_then(|text| text.parse().ok()).unwrap_or(3_000);
+    let mut tally = Tally::default();
+    for seed in 0..designs {
+        try_one(seed, &mut tally);
+    }
+    println!("{tally:?}");
+    // Most designs are sound, and most of those run without a flag.
+    assert!(tally.accepted > tally.drawn / 10 && tally.flagged < tally.accepted / 2, "{tally:?}");
+}
