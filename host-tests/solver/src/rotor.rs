@@ -43,6 +43,7 @@ mod band;
 mod beam;
 mod bearing;
 pub mod converge;
+mod count;
 mod critical;
 mod error;
 mod flexible;

@@ -30,6 +30,7 @@ impl<T: ComplexField<RealField = f64> + Copy> Band<T> {
         band
     }
 
+    #[inline]
     const fn at(&self, row: usize, column: usize) -> usize {
         row * (3 * self.half + 1) + column + self.half - row
     }
@@ -39,6 +40,7 @@ impl<T: ComplexField<RealField = f64> + Copy> Band<T> {
     }
 
     /// The entry in this place.
+    #[inline]
     pub fn get(&self, row: usize, column: usize) -> T {
         self.entries[self.at(row, column)]
     }
@@ -81,6 +83,13 @@ impl<T: ComplexField<RealField = f64> + Copy> Band<T> {
         pivots.then_some(factors)
     }
 
+    /// Negative eigenvalues of a Hermitian matrix, by Sylvester's law from the pivots; `None` where one is not finite.
+    pub fn negative(self) -> Option<usize> {
+        let factors = self.eliminated(false);
+        let pivots = (0..factors.band.size).map(|k| factors.band.get(k, k).real());
+        pivots.map(|pivot| pivot.is_finite().then_some(usize::from(pivot < 0.0))).sum()
+    }
+
     fn eliminated(mut self, exchange: bool) -> Factors<T> {
         let (n, half) = self.shape();
         let mut exchanged = Vec::with_capacity(n);
@@ -113,6 +122,15 @@ impl<T: ComplexField<RealField = f64> + Copy> Band<T> {
 }
 
 impl<T: ComplexField<RealField = f64> + Copy> Factors<T> {
+    /// The determinant over its size.
+    pub fn phase(&self) -> T {
+        let pivots = (0..self.band.size).zip(&self.exchanged).map(|(k, &other)| {
+            let pivot = self.band.get(k, k);
+            pivot.unscale(if k == other { pivot.modulus() } else { -pivot.modulus() })
+        });
+        pivots.fold(T::one(), |product, pivot| product * pivot)
+    }
+
     /// `x` of `A x = b`; not finite where `A` is singular.
     pub fn solve(&self, mut x: Vec<T>) -> Vec<T> {
         let (n, half) = self.band.shape();

@@ -112,7 +112,7 @@ impl Model {
             let within = order.iter().take_while(|&&k| values[k].im <= highest).count();
             (last || order.len() > within + beyond).then(|| order.into_iter().take(within + beyond + 1).collect())
         });
-        let values = sorted(motions);
+        let values = sorted(motions.motions);
         let speeds: Vec<f64> = values.iter().map(|motion| motion.value.im).collect();
         let shapes = separated(&stations, values);
         let critical = |(speed, shape): (f64, Shape)| (Critical { speed, sense: sense(&stations, &shape) }, shape);
@@ -132,7 +132,7 @@ impl Model {
             wanted.extend(beyond);
             (last || beyond.is_some()).then_some(wanted)
         });
-        let all = sorted(motions).into_iter().filter(|motion| narrow(motion.value));
+        let all = sorted(motions.motions).into_iter().filter(|motion| narrow(motion.value));
         all.map(|motion| (motion.value.im, motion.value.re.abs())).collect()
     }
 
@@ -154,18 +154,25 @@ impl Model {
     /// The `count` lowest natural whirls at each of some speeds (rad/s). A motion that decays at a damping ratio of
     /// 0.999 or more is none.
     ///
+    /// Every whirl is proven by its residual, and that none is missing at the first and the last speed.
+    ///
     /// # Errors
-    /// A speed that is not finite.
+    /// A speed that is not finite; [`RotorError::Unproven`].
     pub fn campbell(&self, speeds: &[f64], count: usize) -> Result<Campbell, RotorError> {
         for (index, &speed) in speeds.iter().enumerate() {
             super::error::check("speed", || format!("point {index}"), speed, true, "a finite number")?;
         }
         let stations = self.sparse();
-        let whirls = speeds.iter().map(|&speed| self.naturals(&stations, speed, count)).collect();
-        Ok(Campbell { speeds: speeds.to_vec(), whirls })
+        let ends = [0, speeds.len().saturating_sub(1)];
+        let whirls = speeds.iter().enumerate().map(|(index, &speed)| {
+            self.naturals(&stations, speed, count, ends.contains(&index)).ok_or(RotorError::Unproven { speed })
+        });
+        Ok(Campbell { speeds: speeds.to_vec(), whirls: whirls.collect::<Result<_, _>>()? })
     }
 
-    fn naturals(&self, stations: &[Station], speed: f64, count: usize) -> Vec<Natural> {
+    /// The lowest natural whirls; `None` where some may be missing. They are counted if `counted`, or if not all of
+    /// them are proven.
+    fn naturals(&self, stations: &[Station], speed: f64, count: usize, counted: bool) -> Option<Vec<Natural>> {
         let pencil = Pencil {
             stiffness: self.band(|i, j| self.stiffness[(i, j)]),
             damping: self.band(|i, j| self.damping[(i, j)] + speed * self.gyroscopic[(i, j)]),
@@ -174,14 +181,27 @@ impl Model {
             symmetric: false,
         };
         let whirls = |value: Complex<f64>, from: f64| value.im > 0.0 && -value.re < from * value.norm();
-        let motions = pencil.motions(|values, last| {
+        let found = pencil.motions(|values, last| {
             // so near to a decay, it may turn out to be none
             let order = whirling(values, |value| whirls(value, 0.5 * (1.0 + DECAY)));
             // two more: the last may be one of a pair, or a decay
             (last || order.len() >= count + 2).then(|| order.into_iter().take(count + 2).collect())
         });
-        let mut motions = sorted(motions);
+        let mut motions = sorted(found.motions);
         motions.retain(|motion| whirls(motion.value, DECAY));
+        if !found.whole || counted && !motions.is_empty() {
+            // all that are shown, up to a gap
+            let gap =
+                |k: &usize| motions.get(*k).is_none_or(|next| next.value.im > motions[k - 1].value.im * (1.0 + ALIKE));
+            let shown = count.min(motions.len());
+            let within = (shown.max(1)..=motions.len()).find(gap)?;
+            let last = motions[within - 1].value.im;
+            let top = motions.get(within).map_or(last * (1.0 + ALIKE), |next| 0.5 * (last + next.value.im));
+            let inside = motions[..within].iter().filter(|motion| motion.value.re < top).count();
+            if pencil.count(top, DECAY, &found.values)? != inside {
+                return None;
+            }
+        }
         let values: Vec<Complex<f64>> = motions.iter().map(|motion| motion.value).collect();
         let natural = |(value, shape): (Complex<f64>, Shape)| Natural {
             frequency: value.im,
@@ -189,7 +209,7 @@ impl Model {
             damping_ratio: -value.re / value.norm(),
             sense: sense(stations, &shape),
         };
-        values.into_iter().zip(separated(stations, motions)).take(count).map(natural).collect()
+        Some(values.into_iter().zip(separated(stations, motions)).take(count).map(natural).collect())
     }
 
     fn sparse(&self) -> Vec<Station> {

@@ -41,6 +41,15 @@ pub enum RotorError {
         the shaft that rounding hides it"
     )]
     NotHeld,
+    /// Natural whirls that rounding hides, or that may not be all.
+    #[error(
+        "the natural whirls at {speed} rad/s are not certain: stiffness, damping or mass of some part is too far from \
+        that of the others; expected a rotor without a part that stands out so, such as a longer shortest element"
+    )]
+    Unproven {
+        /// The speed, rad/s.
+        speed: f64,
+    },
     /// An undamped rotor exactly on a critical speed.
     #[error("at {speed} rad/s the vibration has no bound: an undamped critical speed")]
     Unbounded {

@@ -2,9 +2,10 @@
 //!
 //! Their inverses are the largest eigenvalues of `(q, v) -> (-K^-1 (C q + B v), q)`, `v = lambda q`: Arnoldi's method
 //! finds them with a factor of `K` alone. Its vectors are `(L^T q, N^T v)` of `K = L L^T` and `M = N N^T`, whose length
-//! is the energy: undamped the operator is skew then, and soft bearings cost no digits. Each is then refined by the quotient of a left and a right vector,
-//! whose error is the product of theirs, with the strain energy summed part by part: of neighbouring nodes that move
-//! almost alike the assembled stiffness has lost digits.
+//! is the energy: undamped the operator is skew then, and soft bearings cost no digits. Each is then refined by the
+//! quotient of a left and a right vector, whose error is the product of theirs, with the strain energy summed part by
+//! part: of neighbouring nodes that move almost alike the assembled stiffness has lost digits. A motion counts if that
+//! error and rounding are small for certain. Whether some are missing shows the argument of the determinant around them.
 
 use nalgebra::{Complex, ComplexField, DMatrix};
 
@@ -25,12 +26,26 @@ pub(super) struct Motion {
     pub shape: Vec<Complex<f64>>,
 }
 
+/// What was found.
+pub(super) struct Found {
+    /// The wanted motions that are proven.
+    pub motions: Vec<Motion>,
+    /// Whether all that were wanted are proven.
+    pub whole: bool,
+    /// Values near to those of the lowest motions, decays among them.
+    pub values: Vec<Complex<f64>>,
+}
+
 /// Motions in one block: twice in number are those of a round rotor.
 const BLOCK: usize = 2;
 /// Part of its length that a vector must keep beside the others to count.
 const NEW: f64 = 1e-12;
 /// What Arnoldi's method leaves of a motion, over its eigenvalue.
 const CONVERGED: f64 = 1e-8;
+/// Error of an eigenvalue, over its size, up to which a motion is proven. The bound takes all roundings for one sign.
+const PROVEN: f64 = 1e-6;
+/// The same of what the vectors leave, with which refinement ends.
+const REFINED: f64 = 1e-14;
 /// Cosine of the angle between two motions that are one.
 const SAME: f64 = 1.0 - 1e-6;
 
@@ -175,10 +190,10 @@ impl<T: Eigenvalues> Basis<T> {
 impl<T: Eigenvalues> Pencil<'_, T> {
     /// The natural motions that are wanted, in any order. `wanted` picks them of all values that are known so far, or
     /// says that they are too few (`None`); the last call takes what there is.
-    pub fn motions(&self, wanted: impl Fn(&[Complex<f64>], bool) -> Option<Vec<usize>>) -> Vec<Motion> {
+    pub fn motions(&self, wanted: impl Fn(&[Complex<f64>], bool) -> Option<Vec<usize>>) -> Found {
         let (n, half) = self.stiffness.shape();
         let (Some(spring), Some(mass)) = (self.spring().positive(), self.mass().positive()) else {
-            return Vec::new();
+            return Found { motions: Vec::new(), whole: false, values: Vec::new() };
         };
         let circulatory = (0..n).any(|i| {
             let across = i.saturating_sub(half)..i;
@@ -219,32 +234,34 @@ impl<T: Eigenvalues> Pencil<'_, T> {
             if last || !found.is_empty() && found.iter().all(settled) {
                 let complex = self.spring();
                 let complex = Band::new(n, half, |i, j| complex.get(i, j).complex()).positive();
-                let motions = found.into_iter().filter_map(|(value, pair)| {
+                let refined = found.into_iter().map(|(value, pair)| {
                     let mut shape = vec![Complex::new(0.0, 0.0); n];
                     for (share, vector) in pair?.0.into_iter().zip(&basis.vectors) {
                         shape.iter_mut().zip(vector).for_each(|(shape, v)| *shape += share * v.complex());
                     }
                     self.refined(value, complex.as_ref()?.half_adjoint(shape))
                 });
-                return apart(motions);
+                let refined: Vec<Option<Motion>> = refined.collect();
+                let whole = refined.iter().all(Option::is_some);
+                return Found { motions: apart(refined.into_iter().flatten()), whole, values };
             }
             size += size / 3;
         }
     }
 
     /// The symmetric part of the stiffness.
-    fn spring(&self) -> Band<T> {
+    pub(super) fn spring(&self) -> Band<T> {
         let (n, half) = self.stiffness.shape();
         Band::new(n, half, |i, j| (self.stiffness.get(i, j) + self.stiffness.get(j, i).conjugate()).scale(0.5))
     }
 
     /// The inertia without what the spin makes of it.
-    fn mass(&self) -> Band<T> {
+    pub(super) fn mass(&self) -> Band<T> {
         let (n, half) = self.inertia.shape();
         Band::new(n, half, |i, j| T::from_real(self.inertia.get(i, j).real()))
     }
 
-    fn at(&self, value: Complex<f64>) -> Band<Complex<f64>> {
+    pub(super) fn at(&self, value: Complex<f64>) -> Band<Complex<f64>> {
         let (n, half) = self.stiffness.shape();
         let square = value * value;
         Band::new(n, half, |i, j| {
@@ -253,58 +270,77 @@ impl<T: Eigenvalues> Pencil<'_, T> {
         })
     }
 
-    /// `y^H K q`, part by part.
-    fn strain(&self, y: &[Complex<f64>], q: &[Complex<f64>]) -> Complex<f64> {
-        let along = |row: &[(usize, f64)], x: &[Complex<f64>]| -> Complex<f64> {
-            row.iter().map(|&(at, share)| x[at] * share).sum()
+    /// `y^H K q`, part by part, and its rounding.
+    fn strain(&self, y: &[Complex<f64>], q: &[Complex<f64>]) -> (Complex<f64>, f64) {
+        let along = |row: &[(usize, f64)], x: &[Complex<f64>]| {
+            let parts = row.iter().map(|&(at, share)| x[at] * share);
+            parts.fold((Complex::new(0.0, 0.0), 0.0), |(sum, size), part| (sum + part, size + part.norm()))
         };
-        let part = |strain: &Strain| {
-            let Strain { stiffness, force, motion } = strain;
-            let straight = along(force, y).conj() * along(motion, q);
-            let both =
-                if self.symmetric { 0.5 * (straight + along(motion, y).conj() * along(force, q)) } else { straight };
-            both * *stiffness
+        let product = |force: &[(usize, f64)], motion: &[(usize, f64)]| {
+            let ((a, a_size), (b, b_size)) = (along(force, y), along(motion, q));
+            (a.conj() * b, a_size * b.norm() + a.norm() * b_size)
         };
-        self.strains.iter().map(part).sum()
+        let part = |Strain { stiffness, force, motion }: &Strain| {
+            let (straight, rounding) = product(force, motion);
+            let (across, other) = if self.symmetric { product(motion, force) } else { (straight, rounding) };
+            ((straight + across) * 0.5 * *stiffness, (rounding + other) * 0.5 * stiffness.abs() * f64::EPSILON)
+        };
+        let zero = (Complex::new(0.0, 0.0), 0.0);
+        self.strains.iter().map(part).fold(zero, |sum, part| (sum.0 + part.0, sum.1 + part.1))
     }
 
-    /// The root nearest to a value of the scalar equation that two vectors make of the pencil.
-    fn quotient(&self, y: &[Complex<f64>], q: &[Complex<f64>], near: Complex<f64>) -> Complex<f64> {
+    /// The root nearest to a value of the scalar equation that two vectors make of the pencil; the equation's slope
+    /// there, times the root; and its rounding.
+    fn quotient(&self, y: &[Complex<f64>], q: &[Complex<f64>], near: Complex<f64>) -> (Complex<f64>, f64, f64) {
         let form = |band: &Band<T>| {
             let (n, half) = band.shape();
-            let row = |i: usize| {
-                let across = i.saturating_sub(half)..(i + half + 1).min(n);
-                y[i].conj() * across.map(|j| band.get(i, j).complex() * q[j]).sum::<Complex<f64>>()
-            };
-            (0..n).map(row).sum::<Complex<f64>>()
+            let places = (0..n).flat_map(|i| (i.saturating_sub(half)..(i + half + 1).min(n)).map(move |j| (i, j)));
+            places.fold((Complex::new(0.0, 0.0), 0.0), |(sum, size), (i, j)| {
+                let part = y[i].conj() * band.get(i, j).complex() * q[j];
+                (sum + part, size + part.l1_norm())
+            })
         };
-        let (a, b, c) = (form(&self.inertia), form(&self.damping), self.strain(y, q));
+        let ((a, a_size), (b, b_size), (c, c_rounding)) = (form(&self.inertia), form(&self.damping), self.strain(y, q));
         let root = (b * b - a * c * 4.0).sqrt();
         // without the difference of two numbers that are alike
         let sum = if (b.conj() * root).re >= 0.0 { b + root } else { b - root };
         let [one, other] = [-sum / (a * 2.0), -c * 2.0 / sum];
-        if (one - near).norm() < (other - near).norm() { one } else { other }
+        let value = if (one - near).norm() < (other - near).norm() { one } else { other };
+        let size = value.norm();
+        let slope = (b + value * a * 2.0).norm() * size;
+        (value, slope, c_rounding + f64::EPSILON * size * (b_size + size * a_size))
     }
 
-    fn refined(&self, value: Complex<f64>, mut q: Vec<Complex<f64>>) -> Option<Motion> {
+    /// The motion near to one that is known about, if it is proven.
+    ///
+    /// To the first order the left vector takes the residual out of the quotient; what is left is the product of the
+    /// residual and of the left vector's own error, `|change|^T |residual|` at most, over the slope.
+    fn refined(&self, mut value: Complex<f64>, mut q: Vec<Complex<f64>>) -> Option<Motion> {
         let factors = self.at(value + Complex::from_polar(1e-4 * value.norm(), 0.7)).factors();
         let mut y = factors.solve_adjoint(q.clone());
-        let mut value = value;
-        for _ in 0..3 {
+        let mut best = f64::INFINITY;
+        for _ in 0..6 {
             for x in [&mut q, &mut y] {
                 let size = length(x);
                 x.iter_mut().for_each(|x| *x /= size);
             }
-            value = self.quotient(&y, &q, value);
+            let (next, slope, rounding) = self.quotient(&y, &q, value);
+            value = next;
             let at = self.at(value);
-            let right = factors.solve(at.times(&q));
+            let residual = at.times(&q);
             let left = factors.solve_adjoint(at.adjoint_times(&y));
+            let rest: f64 = left.iter().zip(&residual).map(|(change, rest)| change.norm() * rest.norm()).sum();
+            let error = (rest + rounding) / slope;
+            if rest <= REFINED * slope || error >= best {
+                best = best.min(error);
+                break;
+            }
+            best = error;
+            let right = factors.solve(residual);
             q.iter_mut().zip(right).for_each(|(q, change)| *q -= change);
             y.iter_mut().zip(left).for_each(|(y, change)| *y -= change);
         }
-        value = self.quotient(&y, &q, value);
-        let finite = value.re.is_finite() && value.im.is_finite();
-        finite.then_some(Motion { value, shape: q })
+        (best <= PROVEN && value.re.is_finite() && value.im.is_finite()).then_some(Motion { value, shape: q })
     }
 }
 

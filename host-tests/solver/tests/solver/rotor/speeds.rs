@@ -115,8 +115,18 @@ fn whirls_of_any_damper_are_those_of_thirty_digits() {
         (2078.2499415541497, 0.00015159236619795402),
         (2473.071045694436, 0.00014834067227829483),
     ];
-    for (damping, expected) in [([3e3, 1e3], moderate), ([1e6, 2e5], strong), ([1e8, 1e7], locked)] {
-        let bearing = Bearing::anisotropic([4e6, 2e6], damping);
+    let soft = [
+        (0.8773552567304187, 0.051500687442759),
+        (2.7857348651568015, 0.07039320070703865),
+        (3.896369985348118, 0.14730777625723557),
+        (16.761189910373325, 0.06326174464727038),
+        (590.5420798292032, 0.0025110691393635132),
+        (764.0180432033703, 0.0028021006401575906),
+    ];
+    for (stiffness, damping, expected) in
+        [(4e6, [3e3, 1e3], moderate), (4e6, [1e6, 2e5], strong), (4e6, [1e8, 1e7], locked), (4e2, [30.0, 10.0], soft)]
+    {
+        let bearing = Bearing::anisotropic([stiffness, 0.5 * stiffness], damping);
         let model = FlexibleRotor::uniform(4, 1.2, 0.05, Material::STEEL)
             .disc(1, Disc { mass: 24.0, polar: 0.25, diametral: 0.13 })
             .disc(4, Disc { mass: 9.0, polar: 0.05, diametral: 0.03 })
@@ -180,6 +190,34 @@ fn a_shaft_on_soft_springs_whirls_as_a_rigid_rotor() {
             }
         }
     }
+}
+
+/// Bearings softer and softer, until rounding of the shaft's 12 E I/l^3 hides them: whirls are right, or refused.
+#[test]
+fn whirls_that_rounding_hides_are_refused() {
+    let (length, diameter, mut refused) = (2.0_f64, 0.06_f64, 0);
+    let mass = Material::STEEL.density * PI / 4.0 * diameter * diameter * length;
+    for power in -20..=10 {
+        let stiffness = 10_f64.powf(0.25 * f64::from(power));
+        for damping in [0.0, 0.1] {
+            let damping = damping * stiffness;
+            let bearing = Bearing::isotropic(stiffness, damping);
+            let shaft = FlexibleRotor::uniform(10, length, diameter, Material::STEEL).bearing(0, bearing);
+            let model = shaft.bearing(10, bearing).build().unwrap();
+            let Ok(found) = model.campbell(&[0.0], 8) else {
+                refused += 1;
+                continue;
+            };
+            // as above; damping takes the square of its ratio
+            let ratio = damping / (2.0 * stiffness * mass).sqrt();
+            let bounce = (2.0 * stiffness / mass).sqrt() * (1.0 - ratio * ratio).sqrt();
+            for natural in &found.whirls[0][..2] {
+                // a proof is one of 1e-6
+                assert!((natural.frequency / bounce - 1.0).abs() < 1e-6 + 2e-6 * stiffness, "{stiffness}: {natural:?}");
+            }
+        }
+    }
+    assert!(refused > 0);
 }
 
 /// A disc on a shaft of next to no mass, whose vibrations at 3e7 rad/s are far above that of soft springs, 10 rad/s.
