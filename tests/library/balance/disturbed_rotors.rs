@@ -51,8 +51,8 @@ impl Rotor {
     /// Entries 11, 12 (as 21) and 22 of the dynamic stiffness.
     fn stiff(&self, speed: f64, softer: [f64; 2]) -> [Z; 3] {
         let mut stiff = [self.mass, 0.0, self.tilting].map(|mass| Complex::new(-mass * speed * speed, 0.0));
-        for at in 0..2 {
-            let bearing = Complex::new(self.stiffness[at] * softer[at], self.damping[at] * speed);
+        for (at, softer) in softer.into_iter().enumerate() {
+            let bearing = Complex::new(self.stiffness[at] * softer, self.damping[at] * speed);
             for (power, entry) in (0..).zip(&mut stiff) {
                 *entry += bearing * self.arms[at].powi(power);
             }
