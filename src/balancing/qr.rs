@@ -65,8 +65,8 @@ impl<T: Scalar, const PLANES: usize> Qr<T, PLANES> {
         size(self.r.at(k, k))
     }
 
-    /// Puts the columns, each divided by its norm, in order: first the one that has most beside those before it. A
-    /// column with no more of its own than the share `independence` counts as dependent.
+    /// Puts the columns, each divided by its norm, in order: first the one that has most beside those before it; of
+    /// columns alike in that share, which may do the same, the one of the largest norm [Darlow 1982]. A column with no more of its own than the share `independence` counts as dependent.
     pub(crate) fn pivoted(mut self, independence: T) -> PivotedQr<T, PLANES> {
         let mut scale = [T::one(); PLANES];
         for (j, scale) in scale.iter_mut().enumerate() {
@@ -85,15 +85,20 @@ impl<T: Scalar, const PLANES: usize> Qr<T, PLANES> {
         let mut rank = 0;
         // Rounding alone leaves as much as this of a dependent column.
         let independence = independence.max(T::default_epsilon() * real(4.0 * PLANES as f64));
+        // Columns that do the same differ by up to the independence. A tie is decided by the order of the planes,
+        // whatever rounding makes of it.
+        let alike = independence.max(real(0.001));
         while rank < PLANES {
-            let mut best = rank;
+            let (mut best, mut own) = (rank, self.r.norm_from(rank, rank));
             for j in rank + 1..PLANES {
-                // a tie is decided by the order of the planes, whatever rounding makes of it
-                if self.r.norm_from(rank, j) > self.r.norm_from(rank, best) * real(1.001) {
-                    best = j;
+                let other = self.r.norm_from(rank, j);
+                let [size, norm] = [j, best].map(|k| pick(&scale, k, T::one()));
+                let same = own > independence && (other - own).abs() <= alike;
+                if other > independence && if same { size > norm * real(1.001) } else { other > own } {
+                    (best, own) = (j, other);
                 }
             }
-            if !(self.r.norm_from(rank, best) > independence) {
+            if !(own > independence) {
                 break;
             }
             self.r.swap_columns(rank, best);
@@ -258,6 +263,25 @@ mod tests {
         assert_eq!([rank([3.0, 4.0], 0.8), rank([3.0, 4.0], 0.79)], [1, 2]);
     }
 
+    /// Of columns that do the same, exactly or but for less than the independence, the larger one is a pivot, whichever
+    /// comes first and whatever is beside them.
+    #[test]
+    fn of_two_planes_that_do_the_same_the_more_effective_one_is_kept() {
+        for (near, independence) in [(0.0, 0.0), (0.0, 0.01), (0.005, 0.01)] {
+            for (first, second) in [(1.0_f64, 3.0_f64), (3.0, 1.0), (1e-6, 1.0)] {
+                let small = first.min(second);
+                let kept = if first > second { 0 } else { 1 };
+                let pair = [[first, 0.0, 0.0], [second * (1.0_f64 - near * near).sqrt(), second * near, 0.0]];
+                let two = of([[pair[0][0], pair[0][1]], [pair[1][0], pair[1][1]]], [0.0; 2]).pivoted(independence);
+                assert_eq!((two.rank, two.order[0]), (1, kept), "{near} {first} {second}");
+                // beside one that is larger and has some of both
+                let other = [small, 0.0, 10.0];
+                let three = of([pair[0], other, pair[1]], [0.0; 3]).pivoted(independence);
+                assert_eq!((three.rank, three.order[2]), (2, if kept == 0 { 2 } else { 0 }), "{near} {first} {second}");
+            }
+        }
+    }
+
     /// The second pivot is the column with most beside the first, if that is more by a thousandth.
     #[test]
     fn pivots_are_in_order() {
@@ -297,25 +321,25 @@ mod tests {
         }
     }
 
-    /// Beside (1, 0, 0) and (0, 1, d) the column (4, 3, 0) has 3 d of its own, 0.6 d of its length, but for d^2. A
+    /// Beside (10, 0, 0), the largest, and (0, 1, d) the column (4, 3, 0) has 3 d of its own, 0.6 d of its length, but for d^2. A
     /// reflection that took a difference of the head and the norm, which are equal but for d^2/2, would lose it.
     #[test]
     fn a_reflection_loses_nothing() {
         let d = 1e-9;
-        let pivoted = of([[1.0, 0.0, 0.0], [4.0, 3.0, 0.0], [0.0, 1.0, d]], [0.0; 3]).pivoted(0.01);
+        let pivoted = of([[10.0, 0.0, 0.0], [4.0, 3.0, 0.0], [0.0, 1.0, d]], [0.0; 3]).pivoted(0.01);
         assert_eq!((pivoted.order, pivoted.rank), ([0, 2, 1], 2));
         let (own, like) = pivoted.combination(2);
         // some units in the last place
         assert!((own / (0.6 * d) - 1.0).abs() < 1e-14, "{own}");
-        // four of the first and three of the third
-        let expected = [re(4.0), re(0.0), re(3.0)];
+        // 0.4 of the first and three of the third
+        let expected = [re(0.4), re(0.0), re(3.0)];
         assert!(like.iter().zip(expected).all(|(like, expected)| (*like - expected).norm_sqr() < 1e-28), "{like:?}");
     }
 
     /// A pivot with nothing in its row: the third column beside the first, before the second. The solution is ones.
     #[test]
     fn a_reflection_begins_with_a_zero() {
-        let pivoted = of([[1.0, 0.0, 0.0], [4.0, 3.0, 0.0], [0.0, 0.0, 2.0]], [5.0, 3.0, 2.0]).pivoted(0.01);
+        let pivoted = of([[10.0, 0.0, 0.0], [4.0, 3.0, 0.0], [0.0, 0.0, 2.0]], [14.0, 3.0, 2.0]).pivoted(0.01);
         assert_eq!(pivoted.order, [0, 2, 1]);
         // some units in the last place
         assert!(pivoted.solve().iter().all(|x| (*x - re(1.0)).norm_sqr() < 1e-28), "{:?}", pivoted.solve());

@@ -270,10 +270,18 @@ impl Carried {
                     self.losses[own].front = both(self.losses[own].front, losses);
                 }
                 (Some(shaft), _) => self.losses[shaft].front = both(self.losses[shaft].front, losses),
-                (None, Some(own)) if before < whole && self.rigid.iter().all(|(mass, _)| *mass != on(last)) => {
+                (None, Some(own)) if before < whole => {
                     self.losses[own].end = both(self.losses[own].end, losses);
                     let [efficiency, back_efficiency] = losses;
-                    self.rigid.push((on(last), RigidGear { front: before, efficiency, back_efficiency }));
+                    match self.rigid.iter_mut().find(|(mass, _)| *mass == on(last)) {
+                        None => self.rigid.push((on(last), RigidGear { front: before, efficiency, back_efficiency })),
+                        // no inertia between the two
+                        Some((_, gear)) if gear.front == before => {
+                            gear.efficiency *= efficiency;
+                            gear.back_efficiency *= back_efficiency;
+                        }
+                        Some(_) => self.without_shaft = Some(part.label.clone()),
+                    }
                 }
                 (None, _) => self.without_shaft = Some(part.label.clone()),
             }

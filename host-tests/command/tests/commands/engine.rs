@@ -116,7 +116,8 @@ fn critical_speeds(damping: [f64; 5]) {
     // six in line have none
     for order in found["engine"]["orders"].as_array().unwrap() {
         for part in ["force_forward", "force_backward", "moment_forward", "moment_backward"] {
-            assert_eq!(number(&order[part]), 0.0, "{order}");
+            // roundings of a first order of some 200 N
+            assert!(number(&order[part]) < 1e-12, "{order}");
         }
     }
 }
