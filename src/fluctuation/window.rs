@@ -88,6 +88,7 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
         }
         let mut ticks = whole;
         let mut slowness = Series { mean: 1.0, ..Series::default() };
+        let mut beyond_highest = [Order::default(); MAX_ORDER];
         let mut ramp = Ramp { ends: [TAU * cycles / whole; 2], ..Ramp::default() };
         for _ in 0..ROUNDS {
             let ends = self.ends(&slowness, ramp.ends, config.cycle.angle);
@@ -104,17 +105,19 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
                 }
             }
             slowness = ramp.taken_off(&slowness, &integrals, ticks, fitted);
+            for (order, kept) in slowness.orders.iter_mut().zip(&mut beyond_highest).skip(highest) {
+                *kept = core::mem::take(order);
+            }
         }
         for order in &mut slowness.orders {
             order.sin *= sign;
         }
         let (mut coefficient, mut beyond) = (0.0, 0.0);
-        for (n, order) in (1_u32..).zip(&mut slowness.orders).skip(highest) {
+        for (n, order) in (1_u32..).zip(&beyond_highest).take(fitted).skip(highest) {
             let square = order.cos * order.cos + order.sin * order.sin;
             // Half of the mean square; and half of that more, as some eight values show it.
             coefficient += 0.75 * square / (TAU * TAU * f64::from(n * n)) / (fitted - highest) as f64;
             beyond += if n as usize <= highest + 2 { square } else { 0.0 };
-            *order = Order::default();
         }
         let rise = ramp.slowness * TAU * cycles / ticks / f64::from(self.cycles.max(1));
         if rise.abs() > Unusable::RISE {

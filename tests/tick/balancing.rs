@@ -167,18 +167,25 @@ fn within_the_target() {
     }
 }
 
-/// A reading 2 % off the first one's speed is used, one beyond is not; a first one that was off is forgotten. Nine of
-/// them in a row stall it.
+/// A reading as predicted is used at any speed; beyond 5 % of the first one's speed an unexpected one is not, nor is
+/// one without a speed. A first one that was off is forgotten. Nine in a row that are not used stall it.
 #[test]
 fn readings_of_one_speed() {
-    for (speed, used) in [(50.99, true), (49.01, true), (51.01, false), (48.99, false), (f64::NAN, false)] {
+    for (speed, reading, used) in [
+        (52.49, 10.0, true),
+        (47.51, 10.0, true),
+        (60.0, 10.0, true),
+        (60.0, 12.0, false),
+        (40.0, 12.0, false),
+        (f64::NAN, 12.0, false),
+    ] {
         let mut run = begun(CONFIG, 0.5);
         set(run.advise_at(&[re(10.0)], 0.0, 50.0));
         // at rest three readings that are used make the next one move
         set(run.advise_at(&[re(10.0)], 0.0, 50.0));
-        set(run.advise_at(&[re(10.0)], 0.0, speed));
+        set(run.advise_at(&[re(reading)], 0.0, speed));
         let moves = set(run.advise_at(&[re(10.0)], 0.0, 50.0)) != re(0.5);
-        assert_eq!(moves, used, "{speed}");
+        assert_eq!(moves, used, "{speed} {reading}");
     }
     // a first one that is no speed at all
     let mut run = begun(CONFIG, 0.5);

@@ -112,7 +112,7 @@ impl<M: HasVibration, A: Adviser> AxisPanel<M, A> {
             (extremes.cycles() != last).then_some(*extremes)
         })?;
         self.cycles = extremes.cycles();
-        let turn = last_turn::<M, N>(&config.fluctuation, &extremes);
-        Some(turn.map_or([0.0; 3], |turn| [turn.mean as f32, turn.motor.delta as f32, turn.load.delta as f32]))
+        let [mean, motor, load, ..] = last_turn::<M, N>(&config.fluctuation, &extremes);
+        Some([mean, motor, load])
     }
 }

@@ -6,7 +6,7 @@
 use core::marker::PhantomData;
 
 use driveline::configure::Machine;
-use driveline::fluctuation::{Drivetrain, Extremes, Fluctuations, Ranked, Reading, Summed, WaveformConfig, Window};
+use driveline::fluctuation::{Drivetrain, Extremes, Ranked, Summed, WaveformConfig, Window};
 
 /// Key: keeps the waveform of the last finished turns; answers [`DONE`], or [`NOT_YET`] where there is none.
 pub const TAKE: u32 = 64;
@@ -91,15 +91,12 @@ impl<M: Machine> FluctuationPanel<M> {
             _ if key == DEVIATIONS[0] => self.deltas[0][1],
             _ if key == DEVIATIONS[1] => self.deltas[1][1],
             _ => {
-                let Some(turn) = last_turn::<M, N>(config, &extremes()) else { return 0 };
-                let of = |delta: u32, of: Fluctuations| (if key == delta { of.delta } else { of.deviation }) as f32;
-                match key {
-                    MEAN => turn.mean as f32,
-                    MOTOR_EXTREMES => of(MOTOR_EXTREMES, turn.motor),
-                    LOAD_EXTREMES => of(LOAD_EXTREMES, turn.load),
-                    _ if key == DEVIATIONS[2] => of(MOTOR_EXTREMES, turn.motor),
-                    _ if key == DEVIATIONS[3] => of(LOAD_EXTREMES, turn.load),
-                    _ => 0.0,
+                let [mean, deltas @ ..] = last_turn::<M, N>(config, &extremes());
+                let keys = [MOTOR_EXTREMES, LOAD_EXTREMES, DEVIATIONS[2], DEVIATIONS[3]];
+                match keys.iter().zip(deltas).find(|(known, _)| **known == key) {
+                    Some((_, delta)) => delta,
+                    None if key == MEAN => mean,
+                    None => 0.0,
                 }
             }
         };
@@ -107,8 +104,13 @@ impl<M: Machine> FluctuationPanel<M> {
     }
 }
 
-/// The last finished turn by its extremes, without what the estimates' noise adds to them.
+/// The last finished turn by its extremes, without what the estimates' noise adds to them: mean speed (rad/s), delta of
+/// motor and load, their standard deviations. Zeros where there is none.
 #[inline(never)]
-pub fn last_turn<M: Machine, N: Ranked>(config: &WaveformConfig, extremes: &Extremes<N>) -> Option<Reading> {
-    Some(extremes.reading(&config.cycle)?.with_noise(&config.cycle, FluctuationPanel::<M>::NOISE))
+pub fn last_turn<M: Machine, N: Ranked>(config: &WaveformConfig, extremes: &Extremes<N>) -> [f32; 5] {
+    extremes.reading(&config.cycle).map_or([0.0; 5], |turn| {
+        let turn = turn.with_noise(&config.cycle, FluctuationPanel::<M>::NOISE);
+        let [motor, load] = [turn.motor, turn.load];
+        [turn.mean, motor.delta, load.delta, motor.deviation, load.deviation].map(|value| value as f32)
+    })
 }
