@@ -187,18 +187,18 @@ fn readings_of_one_speed() {
         let moves = set(run.advise_at(&[re(10.0)], 0.0, 50.0)) != re(0.5);
         assert_eq!(moves, used, "{speed} {reading}");
     }
-    // a first one that is no speed at all
+    // a first one without a speed is none
     let mut run = begun(CONFIG, 0.5);
     set(run.advise_at(&[re(10.0)], 0.0, f64::NAN));
     set(run.advise_at(&[re(10.0)], 0.0, 50.0));
-    assert_eq!(run.level(), None);
+    assert_eq!(run.level(), Some(1.0));
     let mut run = begun(CONFIG, 0.5);
     set(run.advise_at(&[re(10.0)], 0.0, 50.0));
     for _ in 0..8 {
-        assert_eq!(run.advise_at(&[re(10.0)], 0.0, 60.0), Action::Set([re(0.5)]));
+        assert_eq!(run.advise_at(&[re(12.0)], 0.0, 60.0), Action::Set([re(0.5)]));
     }
-    assert_eq!(run.advise_at(&[re(10.0)], 0.0, 60.0), Action::Abort([re(0.5)], AbortReason::Stalled));
-    assert_eq!(run.advise_at(&[re(10.0)], 0.0, 60.0), Action::Abort([re(0.5)], AbortReason::Stalled));
+    assert_eq!(run.advise_at(&[re(12.0)], 0.0, 60.0), Action::Abort([re(0.5)], AbortReason::Stalled));
+    assert_eq!(run.advise_at(&[re(12.0)], 0.0, 60.0), Action::Abort([re(0.5)], AbortReason::Stalled));
 }
 
 /// Each setting that cannot be is named by its place.

@@ -167,7 +167,8 @@ fn the_swing_of_a_light_load_is_told_from_the_encoders_counts() {
         .into_iter()
         .filter_map(|number| {
             let outcome = run(&scene, &drive, &Draw::new(&scene.tolerances(), 11, number)).unwrap();
-            outcome.found(Figure::RingDown)
+            // a NaN is an answer whose parts were not found
+            outcome.found(Figure::RingDown).filter(|decay| !decay.is_nan())
         })
         .collect();
     let expected = damping / (2.0 * mass);

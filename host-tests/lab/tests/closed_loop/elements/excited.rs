@@ -92,8 +92,8 @@ fn the_teeth_excite_the_gear_drive() {
         let force = motion.extremes(Signal::Force(GearPair::MESH)).unwrap();
         let factor = force.peak * gear_drive::BASE_RADII[0] / through;
         println!("error {error}: mesh force {:.0} to {:.0} N, dynamic factor {factor:.2}", force.least, force.peak);
-        // they meet, and without an error bounce once, as the torque steps up; from then on they keep contact
-        assert!(motion.events().iter().all(|event| event.time < 0.01), "{:?}", motion.events());
+        // they meet and part while the step of the torque rings down; from then on they keep contact
+        assert!(motion.events().iter().all(|event| event.time < 0.1), "{:?}", motion.events());
         assert!(force.least > 0.0 && motion.speed(0) > GearDrive::RATING.speed, "{force:?}");
         factors.push(factor);
     }
