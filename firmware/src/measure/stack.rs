@@ -60,8 +60,8 @@ pub fn used() -> u32 {
     AT_CALL.load(Ordering::Relaxed).saturating_sub(lowest)
 }
 
-/// Words below the deepest call that are looked at after each one.
-const WATCHED: u32 = 16;
+/// Words below the deepest call that are looked at after each one: more than a frame leaves unwritten at its top.
+const WATCHED: u32 = 128;
 
 /// The most stack of measured calls, apart from deeper work between them.
 #[derive(Debug)]

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::code::{Code, Function};
-use crate::instruction::{Flow, Instruction, Stack};
+use crate::instruction::{Flow, Instruction, PC, Stack, address};
 use crate::refusal::Refusal;
 
 /// `nop`, A7.7.88, as an entry of a jump table.
@@ -119,20 +119,30 @@ impl Graph {
             Flow::Return if after != 0 => return Err(Refusal::Stack { function, at }),
             Flow::Return => open.extend(conditional.then_some(behind)),
             Flow::Trap => {}
-            Flow::Table { wide } => {
-                let table = at + size;
+            Flow::Table { wide, base } => {
+                let origin = at + size;
+                let table = if base == PC {
+                    origin
+                } else {
+                    // the instruction before puts the table's address into the register
+                    let before = at - 4;
+                    let known = code.halfword(before).zip(code.halfword(before + 2));
+                    let known = known.and_then(|(first, second)| address(before, first, second));
+                    let known = known.filter(|(register, _)| *register == base && self.nodes.contains_key(&before));
+                    known.ok_or_else(|| Refusal::Indirect { function: function.clone(), at })?.1
+                };
                 let end = code.constants_at(table).filter(|end| *end <= self.function.end).ok_or_else(none)?;
                 let entry = if wide { 2 } else { 1 };
                 let mut targets = Vec::new();
                 for place in (table..end).step_by(entry) {
                     let bytes = code.data(place, entry).ok_or_else(none)?;
                     let forward = bytes.iter().rev().fold(0, |sum, byte| sum << 8 | u32::from(*byte));
-                    targets.push(table + 2 * forward);
+                    targets.push(origin + 2 * forward);
                 }
                 // zeros and `nop`s behind the last entry fill up to where the code goes on: as entries they would lead
                 // to the table itself, and far behind the function
-                let nop = table + 2 * NOP;
-                while targets.last().is_some_and(|last| *last == table || *last == nop && nop >= self.function.end) {
+                let nop = origin + 2 * NOP;
+                while targets.last().is_some_and(|last| *last == origin || *last == nop && nop >= self.function.end) {
                     targets.pop();
                 }
                 open.extend(targets.into_iter().map(|target| (target, 0, after)));

@@ -27,10 +27,12 @@ pub enum Flow {
     },
     /// Back to the caller.
     Return,
-    /// To an entry of the table that follows: forward by twice the entry.
+    /// To an entry of a table of offsets: forward by twice the entry.
     Table {
         /// Whether entries have two bytes.
         wide: bool,
+        /// Register with the table's address; the program counter for a table that follows.
+        base: u16,
     },
     /// Nowhere: an undefined instruction, which the compiler puts where execution cannot come.
     Trap,
@@ -62,7 +64,8 @@ pub struct Instruction {
 
 const SP: u16 = 13;
 const LR: u16 = 14;
-const PC: u16 = 15;
+/// The program counter.
+pub const PC: u16 = 15;
 
 impl Instruction {
     /// Decodes the instruction at `at`; the second halfword is not looked at in a short one.
@@ -213,6 +216,12 @@ fn expanded(twelve: u32) -> u32 {
     }
 }
 
+/// The register and the address that ADR puts in it, A7.7.7, encoding T3.
+pub fn address(at: u32, first: u16, second: u16) -> Option<(u16, u32)> {
+    let twelve = u32::from(first >> 10 & 1) << 11 | u32::from(second >> 12 & 7) << 8 | u32::from(second & 0xff);
+    (first & 0xfbff == 0xf20f && second & 0x8000 == 0).then_some((second >> 8 & 0xf, ((at + 4) & !3) + twelve))
+}
+
 /// LDM and STM, A7.7.41, A7.7.42, A7.7.159 and A7.7.160.
 fn several(first: u16, second: u16) -> (Flow, Stack) {
     let (loads, writes_back) = (first & 0x10 != 0, first & 0x20 != 0);
@@ -235,8 +244,7 @@ fn several(first: u16, second: u16) -> (Flow, Stack) {
 fn dual(first: u16, second: u16) -> (Flow, Stack) {
     let base = first & 0xf;
     if first & 0xfff0 == 0xe8d0 && second & 0xffe0 == 0xf000 {
-        let flow = if base == PC { Flow::Table { wide: second & 0x10 != 0 } } else { Flow::Unknown };
-        return (flow, Stack::Same);
+        return (Flow::Table { wide: second & 0x10 != 0, base }, Stack::Same);
     }
     if base != SP || first & 0x20 == 0 {
         return NEXT;
