@@ -16,9 +16,8 @@ impl Machine for Hoist {
         .drum(Diameter(0.8))
         .damped_rope(Falls(2), Stiffness(2900000.0), LinearDamping(3600.0))
         .lifted(Mass(12000.0));
-    /// The largest torque and speed of the file. `torque` serves as the reference of `DISTURBANCE` only, which is named
-    /// below.
-    const RATING: Rating = Rating { torque: 1350.0, speed: 155.0, torque_limit: 1350.0 };
+    /// Rated torque, largest speed and largest torque of the file.
+    const RATING: Rating = Rating { torque: 675.0, speed: 155.0, torque_limit: 1350.0 };
     const ENCODER: Encoder = Encoder::lines(2048);
     const RATE_HZ: u32 = 10000;
     const DISTURBANCE: Disturbance =
