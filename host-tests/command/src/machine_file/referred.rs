@@ -90,7 +90,7 @@ impl MachineFile {
     }
 
     /// The label of an element whose losses nothing carries: it stands before the first shaft, has no inertia behind
-    /// it, or is the second on one mass.
+    /// it.
     pub fn losses_of_no_chain(&self) -> Option<String> {
         self.carried().without_shaft
     }
@@ -275,12 +275,11 @@ impl Carried {
                     let [efficiency, back_efficiency] = losses;
                     match self.rigid.iter_mut().find(|(mass, _)| *mass == on(last)) {
                         None => self.rigid.push((on(last), RigidGear { front: before, efficiency, back_efficiency })),
-                        // no inertia between the two
-                        Some((_, gear)) if gear.front == before => {
+                        // the inertia between the two counts behind both
+                        Some((_, gear)) => {
                             gear.efficiency *= efficiency;
                             gear.back_efficiency *= back_efficiency;
                         }
-                        Some(_) => self.without_shaft = Some(part.label.clone()),
                     }
                 }
                 (None, _) => self.without_shaft = Some(part.label.clone()),
