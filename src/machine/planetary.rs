@@ -2,7 +2,7 @@
 //!
 //! Speeds follow from Willis: seen from the carrier, sun and ring turn as
 //! `z_sun (w_sun - w_H) = -z_ring (w_ring - w_H)`, and a planet as `z_planet (w - w_H) = -z_sun (w_sun - w_H)`
-//! [derived]. The inertia at the input is that of each part times the square of its speed over the input's [Wang 1989
+//! \[derived\]. The inertia at the input is that of each part times the square of its speed over the input's [Wang 1989
 //! example 1-4].
 
 use super::error::{not_negative, positive};

@@ -13,9 +13,9 @@ const SAME: f64 = 1e-6;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum WorkingCycle {
-    /// One turn; orders 1, 2, 3 ... [derived].
+    /// One turn; orders 1, 2, 3 ... \[derived\].
     TwoStroke,
-    /// Two turns; orders 1/2, 1, 3/2 ... [derived].
+    /// Two turns; orders 1/2, 1, 3/2 ... \[derived\].
     FourStroke,
 }
 

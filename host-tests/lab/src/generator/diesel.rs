@@ -1,11 +1,11 @@
 //! A six-cylinder, four-stroke, turbocharged diesel engine, cylinder by cylinder.
 //!
 //! Every cylinder takes the rack's torque at its own injection and keeps it for its cycle, so the dead time is no
-//! assumption but comes of the firing. Its torque is gas pressure times lever `dV/dphi` [derived]: compression
+//! assumption but comes of the firing. Its torque is gas pressure times lever `dV/dphi` \[derived\]: compression
 //! and expansion by the polytrope 1.36, and a pressure of combustion by Wiebe's function [Heywood 1988, Internal
 //! Combustion Engine Fundamentals, §9.2.2], scaled so that its mean over the cycle is the torque that the rack stands
 //! for. The reciprocating masses have their own torque, `-J'(phi) omega^2/2 - (J(phi) - J_mean) omega'` at each throw
-//! [derived]: its orders at a steady speed are those of `CrankSlider::mass_torque`.
+//! \[derived\]: its orders at a steady speed are those of `CrankSlider::mass_torque`.
 //!
 //! The charge pressure follows the load with a lag, and the fuel is held to what the air burns: a turbocharged engine
 //! takes no full load at once.

@@ -48,7 +48,7 @@ fn the_parts_of_a_sum_of_exponentials_are_found() {
     assert!([&overflows[..], &signal[..100]].iter().all(|signal| slowest(signal, every, 0.0).unwrap().is_nan()));
 }
 
-/// Two free masses on a damped shaft after a blow on one: the twist decays at `d/2 (1/J1 + 1/J2)` [derived].
+/// Two free masses on a damped shaft after a blow on one: the twist decays at `d/2 (1/J1 + 1/J2)` \[derived\].
 #[test]
 fn a_free_machine_rings_down_as_its_damping_says() {
     let (inertias, stiffness, damping) = ([0.62, 0.4], 900.0, 1.1);

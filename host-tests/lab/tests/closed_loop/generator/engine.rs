@@ -74,7 +74,7 @@ fn the_engine_is_as_late_as_the_observer_is_told() {
 }
 
 /// Six throws in thirds of a turn leave every third order of the masses' torque, `-3/4 lambda - 9/32 lambda^3 -
-/// 81/512 lambda^5` of `m r^2 omega^2` to each cylinder in order 3, the series of a massless rod [derived].
+/// 81/512 lambda^5` of `m r^2 omega^2` to each cylinder in order 3, the series of a massless rod \[derived\].
 #[test]
 fn the_masses_torque_has_the_orders_of_the_series() {
     let (count, dt) = (720, 1e-4);

@@ -5,7 +5,7 @@
 //! viscous and dry friction.
 //!
 //! `J_f w' = T_f - m R`, `J_b w' = R - L`, hence `(J_f + m J_b) w' = T_f - m L`. `R` is the torque behind the gear, `L`
-//! the torque against it, `m` the loss: `1/eta` driving (`R w > 0`), `eta` driven [derived]. The sign of
+//! the torque against it, `m` the loss: `1/eta` driving (`R w > 0`), `eta` driven \[derived\]. The sign of
 //! `R = (J_b T_f + J_f L)/(J_f + m J_b)` does not depend on `m`, so `m` is never in doubt. At rest the gear holds while
 //! `T_f` lies between the `m L` of both directions.
 

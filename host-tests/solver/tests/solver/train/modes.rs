@@ -147,7 +147,7 @@ fn what_nothing_holds_is_rigid_and_an_external_gear_is_a_gear() {
 }
 
 /// Damping in proportion to stiffness and inertia, `d = b k` and `c = a J`, gives each mode the decay
-/// `(a + b w^2)/2` and the frequency `sqrt(w^2 - decay^2)` [derived]; a fast one only decays, twice.
+/// `(a + b w^2)/2` and the frequency `sqrt(w^2 - decay^2)` \[derived\]; a fast one only decays, twice.
 #[test]
 fn damped_vibrations_of_proportional_damping_are_the_closed_form() {
     let (a, b) = (0.4, 3.0e-3);
