@@ -66,7 +66,8 @@ impl<T: Scalar, const PLANES: usize> Qr<T, PLANES> {
     }
 
     /// Puts the columns, each divided by its norm, in order: first the one that has most beside those before it; of
-    /// columns alike in that share, which may do the same, the one of the largest norm [Darlow 1982]. A column with no more of its own than the share `independence` counts as dependent.
+    /// columns alike in that share, which may do the same, the one of the largest norm [Darlow 1982]. A column with no
+    /// more of its own than the share `independence` counts as dependent.
     pub(crate) fn pivoted(mut self, independence: T) -> PivotedQr<T, PLANES> {
         let mut scale = [T::one(); PLANES];
         for (j, scale) in scale.iter_mut().enumerate() {

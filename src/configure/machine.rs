@@ -99,8 +99,8 @@ pub trait Machine {
     const BACKLASH_OBSERVER: BacklashDesign =
         Self::TWO_MASS.backlash_observer(Self::RATE, Self::ENCODER, Self::DISTURBANCE, Self::BACKLASH_TUNING);
     /// The losses before the shaft as the observer has to know them: their efficiency by [`Chain::losses`], the inertia
-    /// on the motor side, and eight counts of the encoder by which the motor can turn while friction holds the gear. 3 of 3 machines with a
-    /// lossy gear keep it.
+    /// on the motor side, and eight counts of the encoder by which the motor can turn while friction holds the gear. 3
+    /// of 3 machines with a lossy gear keep it.
     const GEAR: Gear = Gear {
         efficiency: Self::CHAIN.losses().before[0],
         inertia: Self::TWO_MASS.motor_inertia,
