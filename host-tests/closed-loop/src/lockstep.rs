@@ -180,6 +180,8 @@ impl LockStep {
             asked,
         } = self;
         let period = *period;
+        // of one density at every rate
+        let torque_noise = machine.torque_noise / (period * f64::from(machine.chosen.1)).sqrt();
         let ticks = (scenario.duration / period).round() as usize;
         let node = machine.load;
         let mut actions = scenario.actions.iter().peekable();
@@ -206,7 +208,7 @@ impl LockStep {
                 let torque = (law.torque)(plant);
                 plant.set_load_torque(law.node, torque);
             }
-            let torque_noise = machine.torque_noise * noise.normal();
+            let torque_noise = torque_noise * noise.normal();
             let missed =
                 imperfections.missed_ticks > 0.0 && 0.5 * (timing.uniform() + 1.0) < imperfections.missed_ticks;
             let exchanged = if missed {

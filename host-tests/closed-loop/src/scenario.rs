@@ -72,7 +72,8 @@ pub struct Machine {
     pub scenarios: Vec<Scenario>,
     /// Its encoder.
     pub encoder: Encoder,
-    /// Standard deviation of the drive's reported torque (N m).
+    /// Standard deviation of the drive's reported torque in a tick at the rate of `chosen` (N m): at another rate white
+    /// noise of the same density.
     pub torque_noise: f64,
     /// The node of the load.
     pub load: usize,
