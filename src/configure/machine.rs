@@ -86,7 +86,7 @@ pub trait Machine {
 
     /// How torque and load torque wander: [`Rating::disturbance`].
     ///
-    /// The torque's 1 % is kept by 14 of 19. The load's wandering is the tuning of the observer: loads that hardly
+    /// The torque's 1 % is kept by 13 of 19. The load's wandering is the tuning of the observer: loads that hardly
     /// change take 100 s instead of 10 s, loads that come at once take 1 s.
     const DISTURBANCE: Disturbance = Self::RATING.disturbance();
     /// The observer of two masses, from machine, rate, encoder and disturbance.

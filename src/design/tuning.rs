@@ -1,6 +1,7 @@
 //! Tuning data of the observer: rate, encoder and disturbance.
 
 use super::Error;
+use crate::math::sqrt;
 
 /// Sample rate of the controller.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -134,6 +135,17 @@ pub struct Disturbance {
 }
 
 impl Disturbance {
+    /// With a torque whose mean over `time` (s) is accurate to `accuracy` (N m, rms): white noise of one density at
+    /// every rate, `accuracy sqrt(time/T)` in a tick T.
+    ///
+    /// A `torque_accuracy` of the same size in a tick at a higher rate claims a better torque than it is: constant,
+    /// offset and the machine's own deviations do not average out over more ticks.
+    #[must_use]
+    pub const fn torque_over(mut self, accuracy: f64, time: f64, rate: Rate) -> Self {
+        self.torque_accuracy = accuracy * sqrt(time * rate.0);
+        self
+    }
+
     /// Variance of the motor's torque in a tick (N2 m2).
     ///
     /// # Errors

@@ -142,8 +142,8 @@ where
     for k in 0..3 {
         // the project's target; a gap is seen by the estimates as long as it lasts, a thousandth of the time
         assert!(made_up[k] <= 1.2 * nominal[k], "{} {k}: {made_up:?} {nominal:?}", V::NAME);
-        // the test sees a drive that does not make them up
-        assert!(overlooked[k] > 3.0 * nominal[k], "{} {k}: {overlooked:?} {nominal:?}", V::NAME);
+        // the test sees a drive that does not make them up: its errors are beyond those that are allowed
+        assert!(overlooked[k] > 1.5 * nominal[k], "{} {k}: {overlooked:?} {nominal:?}", V::NAME);
     }
 }
 
