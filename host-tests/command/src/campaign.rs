@@ -25,6 +25,7 @@ pub mod run;
 pub mod scenes;
 mod statistics;
 mod summary;
+pub mod tune;
 mod work;
 
 pub use crate::machine_file::factor::{Factor, Tolerance};

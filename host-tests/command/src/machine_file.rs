@@ -262,6 +262,8 @@ pub struct Control {
 pub struct Disturbance {
     /// Root mean square of the error of the motor's torque in one tick (N m).
     pub torque_accuracy: f64,
+    /// Noise of the reported torque in one tick (N m, rms), which campaigns and predictions have.
+    pub torque_noise: f64,
     /// A change of load torque at the motor (N m) ...
     pub load_torque_step: f64,
     /// ... that may come about within this time (s).

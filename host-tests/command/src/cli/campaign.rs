@@ -1,5 +1,7 @@
 //! `cargo driveline campaign`: a scene's drive over machines drawn from its tolerances.
 
+mod tune;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -33,6 +35,7 @@ use driveline_report::{Fact, Table};
   cargo driveline campaign hoist.toml --draws 1000
   cargo driveline campaign axis.toml --tolerance jitter=0 --drive rigid
   cargo driveline campaign hoist.toml --draws 10000 --shard 3/8 --results shard-3.draws
+  cargo driveline campaign hoist.toml --tune disturbance.within=1..100 --least load-torque --tuned better.toml
   cargo driveline campaign merge shard-*.draws --html hoist.html
   cargo driveline campaign hoist.toml --drive plain --results plain.draws
   cargo driveline campaign compare hoist.draws plain.draws
@@ -44,9 +47,9 @@ pub struct Campaign {
     /// crane-travel
     #[arg(required = true)]
     scene: Option<String>,
-    /// Number of draws
-    #[arg(long, default_value_t = 200)]
-    draws: u64,
+    /// Number of draws [default: 200; with --tune 40 a point]
+    #[arg(long)]
+    draws: Option<u64>,
     /// Seed of the draws
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -57,6 +60,16 @@ pub struct Campaign {
     /// Range of a factor, as NAME=LOW..HIGH or NAME=VALUE, in place of the scene's; may be repeated
     #[arg(long, value_name = "RANGE")]
     tolerance: Vec<String>,
+    /// Search a key of the machine file between two values for what --least names; may be repeated
+    #[arg(long, value_name = "KEY=LOW..HIGH", conflicts_with_all = ["draw", "shard", "results"])]
+    tune: Vec<String>,
+    /// With --tune: the figure that is to be least in 95 % of the machines, shaft-torque, load-speed, load-torque, peak
+    /// or dynamic-peak; of several their geometric mean [default: load-speed]
+    #[arg(long, value_name = "FIGURE", requires = "tune")]
+    least: Vec<String>,
+    /// With --tune: a file for the machine with the values that were found
+    #[arg(long, value_name = "PATH", requires = "tune")]
+    tuned: Option<PathBuf>,
     /// Run one draw alone and print its values and figures
     #[arg(long, value_name = "NUMBER", conflicts_with_all = ["draws", "shard", "results", "threads", "html"])]
     draw: Option<u64>,
@@ -76,6 +89,9 @@ pub struct Campaign {
     #[arg(long)]
     pub json: bool,
 }
+
+/// Draws of a campaign, unless told otherwise.
+const DRAWS: u64 = 200;
 
 /// Most draws of a campaign, of days of work.
 const MOST_DRAWS: u64 = 10_000_000;
@@ -156,6 +172,16 @@ impl Campaign {
     }
 
     fn run(&self, scenes: &[CampaignScene]) -> Result<(), Failure> {
+        let draws = self.draws.unwrap_or(if self.tune.is_empty() { DRAWS } else { tune::DRAWS });
+        if draws == 0 || self.threads == Some(0) {
+            return Err(Failure::usage("--draws and --threads must be one or more"));
+        }
+        if draws > MOST_DRAWS {
+            return Err(Failure::usage(format!("--draws must be at most {MOST_DRAWS}, not {draws}")));
+        }
+        if !self.tune.is_empty() {
+            return self.tune();
+        }
         let scene = &self.scene(scenes)?;
         let name = scene.name;
         let drive = scene
@@ -175,12 +201,6 @@ impl Campaign {
         if let Some(number) = self.draw {
             return self.one(scene, &drive, &Draw::new(&tolerances, self.seed, number));
         }
-        if self.draws == 0 || self.threads == Some(0) {
-            return Err(Failure::usage("--draws and --threads must be one or more"));
-        }
-        if self.draws > MOST_DRAWS {
-            return Err(Failure::usage(format!("--draws must be at most {MOST_DRAWS}, not {}", self.draws)));
-        }
         let shard = self.shard.as_deref().map(Shard::parse).transpose().map_err(Failure::usage)?;
         let stem = self.stem(scene, &drive.name(name));
         let usual = match shard {
@@ -195,7 +215,7 @@ impl Campaign {
         results.make_folder()?;
         let nominal = run(scene, &drive, &Draw::nominal()).map_err(Failure::failed)?;
         let variant = drive.name(name);
-        let settings = Settings { variant, draws: self.draws, seed: self.seed, tolerances, nominal, lacks };
+        let settings = Settings { variant, draws, seed: self.seed, tolerances, nominal, lacks };
         let mut record = Record::open(&path, &settings).map_err(Failure::usage)?;
         self.draw(scene, &drive, &settings, shard, &mut record)?;
         if let Some(Shard { which, of }) = shard {

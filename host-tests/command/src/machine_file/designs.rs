@@ -362,7 +362,7 @@ impl MachineFile {
             torque: two.gravity_torque.abs().max(0.5 * rated_torque),
             acceleration: 0.5 * ramp,
             speed: self.limits.speed,
-            torque_noise: self.disturbance.torque_accuracy,
+            torque_noise: self.disturbance.torque_noise,
             cycle: self.cycle(two.gravity_torque),
         }
     }

@@ -19,3 +19,4 @@ mod replay;
 mod rotor;
 mod simulate;
 mod starting_time;
+mod tune;
