@@ -60,13 +60,13 @@ macro_rules! governors {
             one!("governor/feed-forward", (), FeedForward, SymmetricLimit, (), (), p::FORWARD, p::SYMMETRIC, ());
             one!("governor/damping", (), ActiveDamping, SymmetricLimit, (), (), p::DAMPING, p::SYMMETRIC, ());
             one!("governor/curve", (), (), Curve<4>, (), (), (), p::CURVE, ());
-            one!("governor/slew", (), (), Slew<SymmetricLimit, N>, (), (), (), p::SLEW, ());
+            one!("governor/slew", (), (), Slew<SymmetricLimit>, (), (), (), p::SLEW, ());
             let config =
                 SpeedGovernorConfig {
                     gains: GAINS, shape: (), compensation: (), limit: p::SYMMETRIC, sequence: (), filter: p::MEAN
                 };
-            type Average<N> = MovingAverage<{ generator::FIRING }, N>;
-            let governor = <StateOf<SpeedGovernor<(), (), SymmetricLimit, (), Average<N>>, N>>::default();
+            type Average = MovingAverage<{ generator::FIRING }>;
+            let governor = <StateOf<SpeedGovernor<(), (), SymmetricLimit, (), Average>, N>>::default();
             bench.measure("governor/mean", (&config, governor), input::<N>, command);
             let mut modes = <StateOf<SpeedGovernor<(), (), SymmetricLimit, Sequencer>, N>>::default();
             modes.sequence_mut().request(RunRequest::Start);
@@ -79,7 +79,7 @@ macro_rules! governors {
 filter: (),
             };
             bench.measure("governor/modes", (&config, modes), input::<N>, command);
-            let mut whole = generator::Governor::<N>::default();
+            let mut whole = <StateOf<generator::Governor, N>>::default();
             whole.sequence_mut().request(RunRequest::Start);
             let config = SpeedGovernorConfig {
                 gains: GAINS,
