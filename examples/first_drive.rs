@@ -18,7 +18,7 @@ impl Machine for Roll {
     const RATE_HZ: u32 = 10_000;
 }
 
-type RollDrive<N> = Drive<N, TwoMassObserver<N>, (), SpeedLoop<N>>;
+type RollDrive<N> = Drive<N, TwoMassObserver, SpeedLoop>;
 static SINGLE: ConfigOf<RollDrive<f32>> = RollDrive::<f32>::configure::<Roll>();
 static FIXED: ConfigOf<RollDrive<Fixed>> = RollDrive::<Fixed>::configure::<Roll>();
 

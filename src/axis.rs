@@ -60,7 +60,7 @@
 //!     .reduce(Match::ResonanceAntiresonance);
 //! const RATE: Rate = Rate::hz(10_000);
 //! const LOAD: Disturbance = Disturbance { torque_accuracy: 2.0, load_torque_step: 100.0, within: 1.0 };
-//! const CONFIG: ConfigOf<Drive<f32, observer::TwoMassObserver<f32>, (), SpeedLoop<f32>>> = Config {
+//! const CONFIG: ConfigOf<Drive<f32, observer::TwoMassObserver, SpeedLoop>> = Config {
 //!     limits: Limits::<f32>::new(&Screening {
 //!         torque: 500.0, setpoint: 180.0, innovation: 0.05, frozen_turn: 0.0015, max_coast: 150,
 //!     }, Bases::SI),
@@ -75,7 +75,7 @@
 //! };
 //!
 //! fn run(board: MyBoard) -> Result<(), Faults> {
-//!     type Mill<P> = Axis<P, f32, observer::TwoMassObserver<f32>, (), SpeedLoop<f32>>;
+//!     type Mill<P> = Axis<P, Drive<f32, observer::TwoMassObserver, SpeedLoop>>;
 //!     let mut mill = Mill::new(board, &CONFIG, TRIPPING);
 //!     mill.start(&CONFIG)?;
 //!     while mill.board().wait_for_timer() {
@@ -90,13 +90,9 @@ mod board;
 mod missed_ticks;
 mod toothed_wheel;
 
-use crate::balancing::Balancer;
-use crate::drive::{ConfigOf, Drive};
+use crate::drive::{Composition, ConfigOf, VibrationOf};
 use crate::fault::Faults;
-use crate::fluctuation::Fluctuation;
-use crate::governor::Governor;
 use crate::number::Number;
-use crate::observer::Observer;
 use crate::sample::{Command, Sample};
 
 pub use board::{AngleSensor, Board, Enabling, Parts, TorqueOutput, VibrationSensor};
@@ -108,33 +104,29 @@ pub const TRIPPING: Faults = Faults::TORQUE_OUTPUT.with(Faults::ENABLE).with(Fau
 /// A drive on a board. It starts with the power stage off.
 #[derive(Debug)]
 // Not logged: holds the parts of a board.
-pub struct Axis<P, N, O, F = (), G = (), B = ()> {
+pub struct Axis<P, D: Composition> {
     board: P,
-    drive: Drive<N, O, F, G, B>,
+    drive: D,
     tripping: Faults,
     /// The last output.
-    set: N,
+    set: D::Number,
     enabled: bool,
     /// Parts of the board that failed and have not recovered.
     pending: Faults,
 }
 
-impl<P, N, O, F, G, B> Axis<P, N, O, F, G, B>
+impl<P, D> Axis<P, D>
 where
-    P: Board<N>,
-    N: Number,
-    O: Observer<N>,
-    F: Fluctuation<N>,
-    G: Governor<N>,
-    B: Balancer<N>,
+    D: Composition,
+    P: Board<D::Number>,
 {
     /// An axis that the faults of `tripping` trip. The power stage is switched off; the first tick reports a failure of
     /// that.
-    pub fn new(board: P, config: &ConfigOf<Drive<N, O, F, G, B>>, tripping: Faults) -> Self {
+    pub fn new(board: P, config: &ConfigOf<D>, tripping: Faults) -> Self {
         let mut board = board;
         // where there is none yet, the drive finds it later
-        let drive = Drive::new(config, board.angle().unwrap_or(0));
-        let mut axis = Axis { board, drive, tripping, set: N::ZERO, enabled: false, pending: Faults::NONE };
+        let drive = D::new(config, board.angle().unwrap_or(0));
+        let mut axis = Axis { board, drive, tripping, set: D::Number::ZERO, enabled: false, pending: Faults::NONE };
         axis.trip();
         axis
     }
@@ -146,12 +138,12 @@ where
     /// # Errors
     /// [`Faults::ANGLE_LOST`], which a machine at rest leaves by [`Axis::at_rest`], or the board's fault; the power
     /// stage stays off.
-    pub fn start(&mut self, config: &ConfigOf<Drive<N, O, F, G, B>>) -> Result<(), Faults> {
+    pub fn start(&mut self, config: &ConfigOf<D>) -> Result<(), Faults> {
         let lost = if self.drive.is_lost() { Err(Faults::ANGLE_LOST) } else { Ok(()) };
         self.drive.engage(config);
-        self.set = N::ZERO;
+        self.set = D::Number::ZERO;
         let started = lost
-            .and_then(|()| self.board.set_torque(N::ZERO, self.drive.angle()))
+            .and_then(|()| self.board.set_torque(D::Number::ZERO, self.drive.angle()))
             .and_then(|()| self.board.set_enabled(true));
         match started {
             Ok(()) => {
@@ -169,18 +161,18 @@ where
     ///
     /// # Errors
     /// The board's fault of the angle; the angle stays lost.
-    pub fn at_rest(&mut self, config: &ConfigOf<Drive<N, O, F, G, B>>) -> Result<(), Faults> {
+    pub fn at_rest(&mut self, config: &ConfigOf<D>) -> Result<(), Faults> {
         self.trip();
         let angle = self.board.angle()?;
-        self.drive.hold(config, angle, N::ZERO);
+        self.drive.hold(config, angle, D::Number::ZERO);
         Ok(())
     }
 
     /// Takes the torque away and the enable chain back, in this order, whatever fails of it, until [`Axis::start`].
     pub fn trip(&mut self) {
         self.enabled = false;
-        self.set = N::ZERO;
-        let torque = self.board.set_torque(N::ZERO, self.drive.angle());
+        self.set = D::Number::ZERO;
+        let torque = self.board.set_torque(D::Number::ZERO, self.drive.angle());
         let enable = self.board.set_enabled(false);
         self.pending = torque.err().unwrap_or_default() | enable.err().unwrap_or_default();
     }
@@ -189,7 +181,7 @@ where
     /// [`Faults::TRIPPED`], and retries a line that has failed. Ticks that the board reports as missed are made up
     /// first and raise [`Faults::TICK_MISSED`].
     #[inline]
-    pub fn tick(&mut self, config: &ConfigOf<Drive<N, O, F, G, B>>, setpoint: N) -> Command<N> {
+    pub fn tick(&mut self, config: &ConfigOf<D>, setpoint: D::Number) -> Command<D::Number> {
         let missed = self.board.missed();
         let (torque, mut faults) = match self.board.torque(self.set) {
             Ok(torque) => (torque, Faults::NONE),
@@ -229,11 +221,7 @@ where
 
     /// Gives the balancer a sample of the vibration, taken with the last angle; where there is none, nothing. A fault
     /// is given to the balancer too, whose reading is doubted then, and comes back.
-    pub fn vibration(
-        &mut self,
-        config: &ConfigOf<Drive<N, O, F, G, B>>,
-        sample: Result<Option<B::Vibration>, Faults>,
-    ) -> Faults {
+    pub fn vibration(&mut self, config: &ConfigOf<D>, sample: Result<Option<VibrationOf<D>>, Faults>) -> Faults {
         match sample {
             Ok(Some(vibration)) => self.drive.vibration(config, &vibration),
             Ok(None) => {}
@@ -251,12 +239,12 @@ where
     }
 
     /// The drive.
-    pub fn drive(&self) -> &Drive<N, O, F, G, B> {
+    pub fn drive(&self) -> &D {
         &self.drive
     }
 
     /// The drive, for actions between two ticks: beginning a reading, taking over a state.
-    pub fn drive_mut(&mut self) -> &mut Drive<N, O, F, G, B> {
+    pub fn drive_mut(&mut self) -> &mut D {
         &mut self.drive
     }
 

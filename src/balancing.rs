@@ -101,6 +101,10 @@ pub use sensor::{Motion, Sensor, SensorError};
 pub use tolerance::{GRADES, Tolerance, Verdict, resultant, two_planes};
 
 /// A measurement of the rotor's unbalance, advanced once a tick.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` measures no vibration in `{N}`",
+    note = "the order is `Drive<Number, Observer, Governor, Fluctuation, Balancer>`, with `()` for a part left out"
+)]
 pub trait Balancer<N: Number>: Default {
     /// Its constants, shared and immutable.
     type Config;

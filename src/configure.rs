@@ -19,7 +19,7 @@
 //!     // a derived constant that is named is overridden: here the acceleration of the setpoint (rad/s2)
 //!     const RAMP: f64 = 40.0;
 //! }
-//! type RollDrive<N> = Drive<N, GearedObserver<TwoMassObserver<N>>, (), SpeedLoop<N>>;
+//! type RollDrive<N> = Drive<N, GearedObserver<TwoMassObserver>, SpeedLoop>;
 //! static SINGLE: ConfigOf<RollDrive<f32>> = RollDrive::<f32>::configure::<Roll>();
 //! static FIXED: ConfigOf<RollDrive<Fixed>> = RollDrive::<Fixed>::configure::<Roll>();
 //! assert_eq!(SINGLE.governor.ramp, 0.004); // in a tick
@@ -79,8 +79,8 @@
 //!         ..Tolerance::USUAL
 //!     };
 //! # }
-//! # static CONFIG: ConfigOf<Drive<f32, TwoMassObserver<f32>, (), SpeedLoop<f32>>> =
-//! #     Drive::<f32, TwoMassObserver<f32>, (), SpeedLoop<f32>>::configure::<Lift>();
+//! # static CONFIG: ConfigOf<Drive<f32, TwoMassObserver, SpeedLoop>> =
+//! #     Drive::<f32, TwoMassObserver, SpeedLoop>::configure::<Lift>();
 //! ```
 //!
 //! The gains of a speed loop are tested with the observer in the loop: linear, with the gap closed, a crank with its
@@ -110,7 +110,7 @@
 //! struct Scene1k;
 //! impl Scene for Scene1k {
 //!     type Machine = Hoist<1_000>;
-//!     type Drive = Drive<Fixed, TwoMassObserver<Fixed>, (), SpeedLoop<Fixed>>;
+//!     type Drive = Drive<Fixed, TwoMassObserver, SpeedLoop>;
 //!     const CONFIG: ConfigOf<Self::Drive> = Self::Drive::configure::<Self::Machine>();
 //! }
 //! assert_eq!(Scene1k::CONFIG.limits.max_coast, 17);
@@ -132,7 +132,7 @@ mod schedule_test;
 mod units;
 mod vibration;
 
-pub use family::{Family, Follows, ScheduleOf, Scheduled};
+pub use family::{Family, ScheduleOf, Scheduled};
 pub use gain_source::GainSource;
 pub use governor::{
     HasBacklash, HasBarredSpeeds, HasDroop, HasInputShaper, HasLoadSharing, HasSequencer, HasSlew, HasTorqueCurve,
@@ -149,7 +149,7 @@ use crate::balancing::Balancer;
 use crate::drive::{Config, ConfigOf, Drive, Limits};
 use crate::fluctuation::Fluctuation;
 use crate::governor::Governor;
-use crate::number::Number;
+use crate::number::{Number, Part};
 use crate::observer::Observer;
 
 /// The constants of a part in the number `N`, for the machine `M`.
@@ -191,15 +191,15 @@ where
     const LOOP: LoopPart = A::LOOP.and(&B::LOOP).and(&C::LOOP);
 }
 
-impl<M, N, O, F, G, B, const SEAL: i32> Configure<M, N> for Drive<N, O, F, G, B, SEAL>
+impl<M, N, O, G, F, B, const SEAL: i32> Configure<M, N> for Drive<N, O, G, F, B, SEAL>
 where
     M: Machine,
     N: Number,
     Limits<N>: Configure<M, N, Config = Limits<N>>,
-    O: Observer<N> + Configure<M, N, Config = <O as Observer<N>>::Config>,
-    F: Fluctuation<N> + Configure<M, N, Config = <F as Fluctuation<N>>::Config>,
-    G: Governor<N> + Configure<M, N, Config = <G as Governor<N>>::Config>,
-    B: Balancer<N> + Configure<M, N, Config = <B as Balancer<N>>::Config>,
+    O: Part<N, State: Observer<N, Config = <O as Configure<M, N>>::Config>> + Configure<M, N>,
+    G: Part<N, State: Governor<N, Config = <G as Configure<M, N>>::Config>> + Configure<M, N>,
+    F: Part<N, State: Fluctuation<N, Config = <F as Configure<M, N>>::Config>> + Configure<M, N>,
+    B: Part<N, State: Balancer<N, Config = <B as Configure<M, N>>::Config>> + Configure<M, N>,
 {
     type Config = ConfigOf<Self>;
     const CONFIG: Self::Config = {
@@ -215,13 +215,13 @@ where
     };
 }
 
-impl<N, O, F, G, B, const SEAL: i32> Drive<N, O, F, G, B, SEAL>
+impl<N, O, G, F, B, const SEAL: i32> Drive<N, O, G, F, B, SEAL>
 where
     N: Number,
-    O: Observer<N>,
-    F: Fluctuation<N>,
-    G: Governor<N>,
-    B: Balancer<N>,
+    O: Part<N, State: Observer<N>>,
+    G: Part<N, State: Governor<N>>,
+    F: Part<N, State: Fluctuation<N>>,
+    B: Part<N, State: Balancer<N>>,
 {
     /// The constants of this drive for the machine `M`.
     ///

@@ -1,6 +1,6 @@
 //! One tick through all parts: screening, observer, fluctuation, governor.
 //!
-//! A drive is composed by type, `Drive<N, Observer, Fluctuation, Governor, Balancer>`, with `()` for a part that the
+//! A drive is composed by type, `Drive<N, Observer, Governor, Fluctuation, Balancer>`, with `()` for a part that the
 //! machine does not need; such a part costs nothing. Configuration stands apart: one [`Config`] may serve many drives.
 //!
 //! # Bad samples
@@ -37,15 +37,17 @@
 //! motor's side. The estimated load torque is then the torque that would lock it.
 
 mod axis;
+mod composition;
 mod switch;
 
 pub use axis::MADE_UP;
+pub use composition::{Composition, ConfigOf, VibrationOf};
 
 use crate::balancing::Balancer;
 use crate::fault::Faults;
 use crate::fluctuation::Fluctuation;
 use crate::governor::Governor;
-use crate::number::Number;
+use crate::number::{Number, Part, StateOf};
 use crate::observer::Observer;
 use crate::sample::{Command, Estimate, Sample};
 
@@ -73,7 +75,7 @@ pub struct Limits<N: Number> {
 /// The constants of a drive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Config<N: Number, O, F = (), G = (), B = ()> {
+pub struct Config<N: Number, O, G = (), F = (), B = ()> {
     /// Plausibility limits of a sample.
     pub limits: Limits<N>,
     /// Constants of the observer.
@@ -86,29 +88,6 @@ pub struct Config<N: Number, O, F = (), G = (), B = ()> {
     pub balancer: B,
 }
 
-/// Number and constants of a drive, from its type.
-pub trait Composition {
-    /// The number that it calculates with.
-    type Number: Number;
-    /// Its constants.
-    type Config;
-}
-
-impl<N, O, F, G, B, const SEAL: i32> Composition for Drive<N, O, F, G, B, SEAL>
-where
-    N: Number,
-    O: Observer<N>,
-    F: Fluctuation<N>,
-    G: Governor<N>,
-    B: Balancer<N>,
-{
-    type Number = N;
-    type Config = Config<N, O::Config, F::Config, G::Config, B::Config>;
-}
-
-/// The constants of a drive, from its type.
-pub type ConfigOf<D> = <D as Composition>::Config;
-
 /// The state of a drive.
 ///
 /// `SEAL` is for a caller in another language that owns the memory: a positive number by which [`Drive::seal`] finds
@@ -117,17 +96,17 @@ pub type ConfigOf<D> = <D as Composition>::Config;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 // In this order: the compiler's own puts a measurement's tables in front.
 #[repr(C)]
-pub struct Drive<N, O, F = (), G = (), B = (), const SEAL: i32 = 0> {
-    balancer: B,
-    observer: O,
-    governor: G,
+pub struct Drive<N, O: Part<N>, G: Part<N> = (), F: Part<N> = (), B: Part<N> = (), const SEAL: i32 = 0> {
+    balancer: B::State,
+    observer: O::State,
+    governor: G::State,
     /// Substitute for an implausible torque.
     commanded: N,
     /// `SEAL` and the ticks without a usable angle, less those with one; while the angle is lost
     /// [`NONE_YET`](Self::NONE_YET) or [`ONE`](Self::ONE).
     coasted: i32,
     /// The last: a field behind its tables would be beyond the reach of a load.
-    fluctuation: F,
+    fluctuation: F::State,
 }
 
 /// What the seal in a drive's memory shows.
@@ -142,13 +121,13 @@ pub enum Seal {
     Broken,
 }
 
-impl<N, O, F, G, B, const SEAL: i32> Drive<N, O, F, G, B, SEAL>
+impl<N, O, G, F, B, const SEAL: i32> Drive<N, O, G, F, B, SEAL>
 where
     N: Number,
-    O: Observer<N>,
-    F: Fluctuation<N>,
-    G: Governor<N>,
-    B: Balancer<N>,
+    O: Part<N, State: Observer<N>>,
+    G: Part<N, State: Governor<N>>,
+    F: Part<N, State: Fluctuation<N>>,
+    B: Part<N, State: Balancer<N>>,
 {
     /// The angle is lost, and none has been seen since.
     const NONE_YET: i32 = SEAL - 2;
@@ -159,10 +138,10 @@ where
     /// A drive whose machine stands still at `angle` (2^-32 turn), without torque in its shaft.
     pub fn new(config: &ConfigOf<Self>, angle: u32) -> Self {
         Drive {
-            observer: O::at_rest(&config.observer, angle, N::ZERO),
-            fluctuation: F::default(),
-            governor: G::default(),
-            balancer: B::default(),
+            observer: <StateOf<O, N>>::at_rest(&config.observer, angle, N::ZERO),
+            fluctuation: Default::default(),
+            governor: Default::default(),
+            balancer: Default::default(),
             commanded: N::ZERO,
             coasted: SEAL,
         }
@@ -228,48 +207,48 @@ where
     }
 
     /// The observer.
-    pub fn observer(&self) -> &O {
+    pub fn observer(&self) -> &O::State {
         &self.observer
     }
 
     /// The observer, to set data that no sample contains, such as the crank's angle.
-    pub fn observer_mut(&mut self) -> &mut O {
+    pub fn observer_mut(&mut self) -> &mut O::State {
         &mut self.observer
     }
 
     /// The fluctuation's measurement.
-    pub fn fluctuation(&self) -> &F {
+    pub fn fluctuation(&self) -> &F::State {
         &self.fluctuation
     }
 
     /// The fluctuation's measurement, to take its finished results.
-    pub fn fluctuation_mut(&mut self) -> &mut F {
+    pub fn fluctuation_mut(&mut self) -> &mut F::State {
         &mut self.fluctuation
     }
 
     /// The governor.
-    pub fn governor(&self) -> &G {
+    pub fn governor(&self) -> &G::State {
         &self.governor
     }
 
     /// The governor, to request a start or stop or to switch its constants, between two ticks.
-    pub fn governor_mut(&mut self) -> &mut G {
+    pub fn governor_mut(&mut self) -> &mut G::State {
         &mut self.governor
     }
 
     /// The balancer.
-    pub fn balancer(&self) -> &B {
+    pub fn balancer(&self) -> &B::State {
         &self.balancer
     }
 
     /// The balancer, to begin a reading or to set the rotor's angle: between two ticks.
-    pub fn balancer_mut(&mut self) -> &mut B {
+    pub fn balancer_mut(&mut self) -> &mut B::State {
         &mut self.balancer
     }
 
     /// Gives the balancer the samples of the vibration, taken with the last angle: once a tick.
     #[inline(always)]
-    pub fn vibration(&mut self, config: &ConfigOf<Self>, vibration: &B::Vibration) {
+    pub fn vibration(&mut self, config: &ConfigOf<Self>, vibration: &VibrationOf<Self>) {
         self.balancer.measure(&config.balancer, self.observer.angle(), vibration);
     }
 
@@ -293,7 +272,7 @@ where
         if torque.exceeds(limits.torque) {
             torque = self.commanded;
             faults |= Faults::TORQUE;
-        } else if !G::COMMANDS {
+        } else if !<StateOf<G, N>>::COMMANDS {
             self.commanded = torque;
         }
         if sample.setpoint.exceeds(limits.setpoint) {
@@ -329,7 +308,7 @@ where
     #[inline(always)]
     fn govern(&mut self, config: &ConfigOf<Self>, estimate: &Estimate<N>, faults: Faults) -> Command<N> {
         let torque = self.governor.command(&config.governor, estimate);
-        if G::COMMANDS {
+        if <StateOf<G, N>>::COMMANDS {
             self.commanded = torque;
         }
         Command { torque, faults }
@@ -358,7 +337,7 @@ where
         }
         let last = self.observer.angle();
         let turned = N::from_angle(sample.angle.wrapping_sub(last) as i32);
-        let speed = O::speed_of_turn(&config.observer, turned);
+        let speed = <StateOf<O, N>>::speed_of_turn(&config.observer, turned);
         if sample.angle == last {
             faults = Faults::ANGLE_FROZEN;
             self.coasted = Self::NONE_YET;
@@ -366,7 +345,8 @@ where
             self.observer.resync(sample.angle);
             self.coasted = Self::ONE;
         } else {
-            let count = O::speed_of_turn(&config.observer, N::ZERO.less_turn(limits.frozen_turn)).magnitude();
+            let count =
+                <StateOf<O, N>>::speed_of_turn(&config.observer, N::ZERO.less_turn(limits.frozen_turn)).magnitude();
             let known = self.estimate(config).motor_speed;
             if (speed - known).exceeds(count) {
                 self.observer.restart(&config.observer, sample.angle, torque, speed);

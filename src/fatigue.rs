@@ -25,7 +25,7 @@
 //! const CLASSES: TorqueClasses<f32> = TorqueClasses::<f32>::new::<64>(640.0);
 //! const STEEL: WoehlerLine = WoehlerLine { knee: 100.0, cycles: 2.0e6, slope: 5.0, below: 9.0 };
 //!
-//! let mut rainflow = Rainflow::<f32, 64>::default(); // in a drive: its measurement of the fluctuation
+//! let mut rainflow = Rainflow::<64, f32>::default(); // in a drive: its measurement of the fluctuation
 //! for tick in 0..4000 {
 //!     let torque = if tick / 20 % 2 == 0 { 310.0 } else { -290.0 }; // 100 cycles of 600 N m
 //!     let estimate = Estimate { shaft_torque: torque, ..Estimate::default() };

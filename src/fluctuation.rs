@@ -40,8 +40,8 @@
 //! const CYCLE: CycleConfig = CycleConfig::new(Cycle::TURN, 1e-4, Bases::SI);
 //! const CONFIG: WaveformConfig = WaveformConfig::new::<64>(CYCLE, 16);
 //!
-//! // in a drive: `Drive<f32, TwoMassObserver<f32>, Waveform<f32, 64>, ..>`
-//! let mut waveform = Waveform::<f32, 64>::default();
+//! // in a drive: `Drive<f32, TwoMassObserver, .., Waveform<64>>`
+//! let mut waveform = Waveform::<64, f32>::default();
 //! let mut phi = 0.0_f64;
 //! let ripple = loop {
 //!     phi += 1e-4 * 150.0 * (1.0 + 0.01 * (2.0 * phi).cos()); // 2 % from peak to peak, twice a turn
@@ -95,6 +95,10 @@ use crate::number::Number;
 use crate::sample::Estimate;
 
 /// A measurement of the speed's fluctuation, advanced once a tick.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` measures no fluctuation in `{N}`",
+    note = "the order is `Drive<Number, Observer, Governor, Fluctuation, Balancer>`, with `()` for a part left out"
+)]
 pub trait Fluctuation<N: Number>: Default {
     /// Its constants, shared and immutable.
     type Config;

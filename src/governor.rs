@@ -50,7 +50,7 @@ pub use sequencer::{RunAction, RunRequest, RunState, Sequence, Sequencer, Sequen
 pub use setpoint::{Barred, BarredConfig, Droop, DroopConfig, SetpointShape, SpeedRange};
 pub use soft_starter::{SoftStarter, SoftStarterConfig};
 pub use speed_filter::{CycleAverage, MovingAverage, MovingAverageConfig, SpeedFilter};
-pub use speed_governor::{Gains, SpeedGovernor, SpeedGovernorConfig, SpeedGovernorConfigOf};
+pub use speed_governor::{Gains, SpeedGovernor, SpeedGovernorConfig};
 pub use speed_loop::{SpeedLoop, SpeedLoopConfig};
 pub use transport_delay::{TransportDelay, TransportDelayConfig};
 
@@ -58,6 +58,10 @@ use crate::number::Number;
 use crate::sample::Estimate;
 
 /// A controller of the motor's torque, advanced once a tick.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no governor in `{N}`",
+    note = "the order is `Drive<Number, Observer, Governor, Fluctuation, Balancer>`, with `()` for a part left out"
+)]
 pub trait Governor<N: Number>: Default {
     /// Its constants, shared and immutable.
     type Config;

@@ -22,8 +22,8 @@
 //!     const ENCODER: Encoder = Encoder::lines(2048);
 //!     const RATE_HZ: u32 = 10_000;
 //! }
-//! /// Number, observer, measurement of the fluctuation (none), governor.
-//! type RollDrive = Drive<Fixed, TwoMassObserver<Fixed>, (), SpeedLoop<Fixed>>;
+//! /// Number, observer, governor.
+//! type RollDrive = Drive<Fixed, TwoMassObserver, SpeedLoop>;
 //! static CONFIG: ConfigOf<RollDrive> = RollDrive::configure::<Roll>();
 //!
 //! let mut drive = RollDrive::new(&CONFIG, 0);

@@ -14,9 +14,11 @@
 mod fixed;
 mod float;
 mod interpolate;
+mod part;
 
 pub use fixed::{Coefficient, Fixed};
 pub use interpolate::{Interpolate, Magnitude, Weight};
+pub use part::{Part, StateOf};
 
 use core::fmt::Debug;
 use core::ops::{Add, Neg, Sub};

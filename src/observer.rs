@@ -46,6 +46,10 @@ use crate::number::Number;
 use crate::sample::Estimate;
 
 /// An estimator of the drivetrain's state, advanced once a tick: predict, then correct or coast.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no observer in `{N}`",
+    note = "the order is `Drive<Number, Observer, Governor, Fluctuation, Balancer>`, with `()` for a part left out"
+)]
 pub trait Observer<N: Number>: Sized {
     /// Its constants, shared and immutable.
     type Config;

@@ -42,11 +42,11 @@
 //! #     const ENCODER: Encoder = Encoder::lines(2048);
 //! #     const RATE_HZ: u32 = 10_000;
 //! # }
-//! type RollDrive = Drive<f32, TwoMassObserver<f32>, (), SpeedLoop<f32>>;
+//! type RollDrive = Drive<f32, TwoMassObserver, SpeedLoop>;
 //! static CONFIG: ConfigOf<RollDrive> = RollDrive::configure::<Roll>();
 //!
 //! type RollParts<C, P, L> = Parts<Quadrature<C>, PwmTorque<P, f32>, EnableChain<L, 1>>;
-//! type RollAxis<C, P, L> = Axis<RollParts<C, P, L>, f32, TwoMassObserver<f32>, (), SpeedLoop<f32>>;
+//! type RollAxis<C, P, L> = Axis<RollParts<C, P, L>, RollDrive>;
 //!
 //! fn wired<C: Counter, P: SetDutyCycle, L: OutputPin>(timer: C, channel: P, pin: L) -> RollAxis<C, P, L> {
 //!     let parts = Parts {
@@ -75,11 +75,11 @@
 //! use driveline_hal::{AwaitedAngle, AwaitedTorque, MagneticEncoder, SpiDac};
 //! use embedded_hal_async::spi::SpiDevice;
 //!
-//! # type Config = ConfigOf<Drive<f32, TwoMassObserver<f32>, (), SpeedLoop<f32>>>;
-//! type OnTask<E> = Axis<Parts<AwaitedAngle, AwaitedTorque<f32>, E>, f32, TwoMassObserver<f32>, (), SpeedLoop<f32>>;
+//! # type RollDrive = Drive<f32, TwoMassObserver, SpeedLoop>;
+//! type OnTask<E> = Axis<Parts<AwaitedAngle, AwaitedTorque<f32>, E>, RollDrive>;
 //!
 //! async fn one_tick<E: Enabling, S: SpiDevice>(
-//!     axis: &mut OnTask<E>, config: &Config, encoder: &mut MagneticEncoder<S>, dac: &mut SpiDac<S, f32>,
+//!     axis: &mut OnTask<E>, config: &ConfigOf<RollDrive>, encoder: &mut MagneticEncoder<S>, dac: &mut SpiDac<S, f32>,
 //! ) -> Faults {
 //!     axis.board().angle.fetch(encoder.angle_async()).await;
 //!     let command = axis.tick(config, 150.0);

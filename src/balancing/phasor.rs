@@ -13,12 +13,13 @@ use super::{Balancer, PhasorsConfig, ReadingFault};
 use crate::angle::Passed;
 use crate::angle::{RotorAngle, Synchronous};
 use crate::fault::Faults;
+use crate::number::Part;
 
 /// A measurement of `CHANNELS` channels that ends after `EDGES - 1` blocks, and the reading until the next one is
 /// begun.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Phasors<N: Synchronous, const CHANNELS: usize, const EDGES: usize> {
+pub struct Phasors<const CHANNELS: usize, const EDGES: usize, N: Synchronous = f32> {
     turning: RotorAngle,
     /// Cosine and sine of the rotor's angle at the last tick.
     direction: [N::Part; 2],
@@ -37,7 +38,11 @@ pub struct Phasors<N: Synchronous, const CHANNELS: usize, const EDGES: usize> {
     edges: [Edge<N, CHANNELS>; EDGES],
 }
 
-impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Default for Phasors<N, CHANNELS, EDGES> {
+impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Part<N> for Phasors<CHANNELS, EDGES> {
+    type State = Phasors<CHANNELS, EDGES, N>;
+}
+
+impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Default for Phasors<CHANNELS, EDGES, N> {
     fn default() -> Self {
         Phasors {
             turning: RotorAngle::default(),
@@ -54,7 +59,7 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Default for Phas
     }
 }
 
-impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Balancer<N> for Phasors<N, CHANNELS, EDGES> {
+impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Balancer<N> for Phasors<CHANNELS, EDGES, N> {
     type Config = PhasorsConfig<N, CHANNELS>;
     type Vibration = [N; CHANNELS];
 
@@ -120,7 +125,7 @@ fn added<N: Synchronous, const CHANNELS: usize>(
     after
 }
 
-impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<N, CHANNELS, EDGES> {
+impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<CHANNELS, EDGES, N> {
     /// Begins a new reading at the rotor's next zero and discards the old one.
     pub fn begin(&mut self) {
         self.sums = [[N::Sum::default(); 2]; CHANNELS];
@@ -203,7 +208,7 @@ mod tests {
     use crate::settings::PhasorSettings;
 
     /// Sixteen ticks on a turn, begun a sixteenth after the zero, with nothing to measure.
-    fn turned<const EDGES: usize>(ticks: u32) -> (Phasors<f64, 1, EDGES>, PhasorsConfig<f64, 1>) {
+    fn turned<const EDGES: usize>(ticks: u32) -> (Phasors<1, EDGES, f64>, PhasorsConfig<f64, 1>) {
         let mut config = PhasorsConfig::<f64, 1>::new(&PhasorSettings::DIRECT, [1.0]);
         config.block = 3;
         let mut phasors = Phasors::default();
@@ -228,7 +233,7 @@ mod tests {
     fn the_rotor_is_where_its_mark_says() {
         let (mut phasors, config) = turned::<4>(16 + 48 + 3);
         // a turn is counted in 2^26 units, rounded down
-        let is_at = |phasors: &Phasors<f64, 1, 4>, angle: u32| angle - phasors.angle(&config) <= 64;
+        let is_at = |phasors: &Phasors<1, 4, f64>, angle: u32| angle - phasors.angle(&config) <= 64;
         assert!(is_at(&phasors, 3 << 28) && phasors.blocks() == 1);
         phasors.align(&config, 3 << 28, 8 << 28);
         // and the reading begins anew
@@ -241,7 +246,7 @@ mod tests {
     #[test]
     fn a_jump_over_turns_keeps_the_angle() {
         let config = PhasorsConfig::<f64, 1>::new(&PhasorSettings { rotor_turns: 5, ..PhasorSettings::DIRECT }, [1.0]);
-        let mut phasors = Phasors::<f64, 1, 4>::default();
+        let mut phasors = Phasors::<1, 4, f64>::default();
         for _ in 0..3 {
             phasors.measure(&config, 7 << 28, &[0.0]);
             assert!((3 << 28) - phasors.angle(&config) <= 64);

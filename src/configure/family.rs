@@ -3,12 +3,12 @@
 use super::{Configure, Machine};
 use crate::balancing::Balancer;
 use crate::design::{Disturbance, PlacedObserver, SpeedLoopDesign, SpeedLoopTuning};
-use crate::drive::Drive;
+use crate::drive::{Composition, Drive};
 use crate::fluctuation::Fluctuation;
 use crate::governor::{DampingLag, DampingLagConfig, Governor, LoopFilter, SetpointLag, SpeedLoop, SpeedLoopConfig};
 use crate::learning::{Correction, EccentricityObserver};
 use crate::machine::TwoMass;
-use crate::number::{Fixed, Interpolate, Number};
+use crate::number::{Fixed, Interpolate, Number, Part, StateOf};
 use crate::observer::{
     GearedConfig, GearedObserver, Observer, SemiImplicitConfig, SemiImplicitObserver, TwoMassConfig, TwoMassObserver,
 };
@@ -56,8 +56,7 @@ use crate::settings::{Bases, SpeedLoopSettings};
 ///         ]
 ///     };
 /// }
-/// type Observer = TwoMassObserver<f32>;
-/// type HoistDrive = Drive<f32, Observer, (), SpeedLoop<f32>>;
+/// type HoistDrive = Drive<f32, TwoMassObserver, SpeedLoop>;
 /// static SCHEDULE: driveline::configure::ScheduleOf<HoistDrive, 2, 2> = HoistDrive::schedule::<Hoist, 2, 2>();
 /// let mut config = HoistDrive::configure::<Hoist>();
 /// let mut drive = HoistDrive::new(&config, 0);
@@ -156,11 +155,11 @@ macro_rules! cells {
     }};
 }
 
-impl<M, N, O, const A: usize, const B: usize> Scheduled<M, N, A, B> for EccentricityObserver<N, O>
+impl<M, N, O, const A: usize, const B: usize> Scheduled<M, N, A, B> for EccentricityObserver<O>
 where
     M: Family<A, B>,
     N: Correction,
-    O: Observer<N> + Configure<M, N, Config = <O as Observer<N>>::Config> + Scheduled<M, N, A, B>,
+    O: Scheduled<M, N, A, B>,
 {
     const CELLS: [[Self::Config; B]; A] = O::CELLS;
 }
@@ -170,7 +169,7 @@ impl<M: Family<A, B>, N: Number, const A: usize, const B: usize> Scheduled<M, N,
     const CELLS: [[(); B]; A] = [[(); B]; A];
 }
 
-impl<M: Family<A, B>, N: Number, const A: usize, const B: usize> Scheduled<M, N, A, B> for SetpointLag<N> {
+impl<M: Family<A, B>, N: Number, const A: usize, const B: usize> Scheduled<M, N, A, B> for SetpointLag {
     const CELLS: [[(); B]; A] = [[(); B]; A];
 }
 
@@ -186,25 +185,21 @@ where
 
 macro_rules! scheduled {
     ($number:ident, $bases:expr) => {
-        impl<M: Family<A, B>, const A: usize, const B: usize> Scheduled<M, $number, A, B> for TwoMassObserver<$number> {
+        impl<M: Family<A, B>, const A: usize, const B: usize> Scheduled<M, $number, A, B> for TwoMassObserver {
             const CELLS: [[Self::Config; B]; A] = cells!(<Self as Configure<M, $number>>::CONFIG, |i, j| {
                 TwoMassConfig::<$number>::of_placed(&M::OBSERVERS[i][j], $bases)
             });
         }
 
-        impl<M: Family<A, B>, const A: usize, const B: usize> Scheduled<M, $number, A, B>
-            for SemiImplicitObserver<$number>
-        {
+        impl<M: Family<A, B>, const A: usize, const B: usize> Scheduled<M, $number, A, B> for SemiImplicitObserver {
             const CELLS: [[Self::Config; B]; A] = cells!(<Self as Configure<M, $number>>::CONFIG, |i, j| {
                 SemiImplicitConfig::<$number>::of_placed(&M::OBSERVERS[i][j], $bases)
             });
         }
 
-        impl<M: Family<A, B>, F, const A: usize, const B: usize> Scheduled<M, $number, A, B> for SpeedLoop<$number, F>
+        impl<M: Family<A, B>, F, const A: usize, const B: usize> Scheduled<M, $number, A, B> for SpeedLoop<F>
         where
-            F: LoopFilter<$number, Config: Copy>
-                + Configure<M, $number, Config = <F as LoopFilter<$number>>::Config>
-                + Scheduled<M, $number, A, B>,
+            F: Part<$number, State: LoopFilter<$number>> + Scheduled<M, $number, A, B, Config: Copy>,
         {
             const CELLS: [[Self::Config; B]; A] = cells!(<Self as Configure<M, $number>>::CONFIG, |i, j| {
                 SpeedLoopConfig::<$number>::new(
@@ -216,7 +211,7 @@ macro_rules! scheduled {
             });
         }
 
-        impl<M: Family<A, B>, const A: usize, const B: usize> Scheduled<M, $number, A, B> for DampingLag<$number> {
+        impl<M: Family<A, B>, const A: usize, const B: usize> Scheduled<M, $number, A, B> for DampingLag {
             const CELLS: [[Self::Config; B]; A] = cells!(<Self as Configure<M, $number>>::CONFIG, |i, j| {
                 DampingLagConfig::<$number>::new(M::SPEED_LOOPS[i][j].damping_lag, M::PERIOD, $bases)
             });
@@ -224,9 +219,7 @@ macro_rules! scheduled {
 
         impl<M: Family<A, B>, O, const A: usize, const B: usize> Scheduled<M, $number, A, B> for GearedObserver<O>
         where
-            O: Observer<$number, Config: Copy>
-                + Configure<M, $number, Config = <O as Observer<$number>>::Config>
-                + Scheduled<M, $number, A, B>,
+            O: Scheduled<M, $number, A, B, Config: Copy>,
         {
             const CELLS: [[Self::Config; B]; A] = cells!(<Self as Configure<M, $number>>::CONFIG, |i, j| {
                 GearedConfig::<$number, _>::new(O::CELLS[i][j], &M::GEAR, M::PERIOD, $bases)
@@ -240,37 +233,29 @@ scheduled!(f64, Bases::SI);
 scheduled!(Fixed, M::BASES);
 
 /// The gain schedule of a drive's observer and governor.
-pub type ScheduleOf<D, const A: usize, const B: usize> = Schedule<<D as Follows>::Constants, A, B>;
+pub type ScheduleOf<D, const A: usize, const B: usize> = Schedule<
+    (
+        <<D as Composition>::Observer as Observer<<D as Composition>::Number>>::Config,
+        <<D as Composition>::Governor as Governor<<D as Composition>::Number>>::Config,
+    ),
+    A,
+    B,
+>;
 
-/// A drive that can follow a gain schedule.
-pub trait Follows {
-    /// The constants of observer and governor.
-    type Constants;
-}
-
-impl<N, O, F, G, B> Follows for Drive<N, O, F, G, B>
+impl<N, O, G, F, B> Drive<N, O, G, F, B>
 where
     N: Number,
-    O: Observer<N>,
-    G: Governor<N>,
-{
-    type Constants = (O::Config, G::Config);
-}
-
-impl<N, O, F, G, B> Drive<N, O, F, G, B>
-where
-    N: Number,
-    O: Observer<N, Config: Interpolate>,
-    F: Fluctuation<N>,
-    G: Governor<N, Config: Interpolate>,
-    B: Balancer<N>,
+    O: Part<N, State: Observer<N, Config: Interpolate>>,
+    G: Part<N, State: Governor<N, Config: Interpolate>>,
+    F: Part<N, State: Fluctuation<N>>,
+    B: Part<N, State: Balancer<N>>,
 {
     /// The gain schedule of this drive for a family of machines, to be kept in a `static`.
     pub const fn schedule<M, const I: usize, const K: usize>() -> ScheduleOf<Self, I, K>
     where
         M: Family<I, K>,
-        O: Scheduled<M, N, I, K> + Configure<M, N, Config = <O as Observer<N>>::Config>,
-        G: Scheduled<M, N, I, K> + Configure<M, N, Config = <G as Governor<N>>::Config>,
+        O: Scheduled<M, N, I, K, Config = <StateOf<O, N> as Observer<N>>::Config>,
+        G: Scheduled<M, N, I, K, Config = <StateOf<G, N> as Governor<N>>::Config>,
     {
         let (observers, governors) = (O::CELLS, G::CELLS);
         let mut cells = [[(O::CONFIG, G::CONFIG); K]; I];

@@ -20,7 +20,7 @@ const fn has_ticks<M: Machine>(least: f64) {
 
 macro_rules! measurements {
     ($number:ident, $bases:expr) => {
-        impl<M: Machine> Configure<M, $number> for Extremes<$number> {
+        impl<M: Machine> Configure<M, $number> for Extremes {
             type Config = CycleConfig;
             const CONFIG: CycleConfig = {
                 has_ticks::<M>(96.0);
@@ -28,21 +28,21 @@ macro_rules! measurements {
             };
         }
 
-        impl<M: Machine, const BINS: usize> Configure<M, $number> for Waveform<$number, BINS> {
+        impl<M: Machine, const BINS: usize> Configure<M, $number> for Waveform<BINS> {
             type Config = WaveformConfig;
             const CONFIG: WaveformConfig =
                 WaveformConfig::new::<BINS>(CycleConfig::new(M::CYCLE, M::PERIOD, $bases), M::CYCLES);
         }
 
-        impl<M: Machine, const BINS: usize> Configure<M, $number> for Interleaved<$number, BINS> {
+        impl<M: Machine, const BINS: usize> Configure<M, $number> for Interleaved<BINS> {
             type Config = WaveformConfig;
             const CONFIG: WaveformConfig = {
                 has_ticks::<M>(160.0);
-                <Waveform<$number, BINS> as Configure<M, $number>>::CONFIG
+                <Waveform<BINS> as Configure<M, $number>>::CONFIG
             };
         }
 
-        impl<M: Machine, const SEGMENTS: usize> Configure<M, $number> for CycleMean<$number, SEGMENTS> {
+        impl<M: Machine, const SEGMENTS: usize> Configure<M, $number> for CycleMean<SEGMENTS> {
             type Config = CycleMeanConfig<$number>;
             const CONFIG: Self::Config = CycleMeanConfig::<$number>::new::<SEGMENTS>(M::CYCLE, M::PERIOD, $bases);
         }

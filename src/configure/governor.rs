@@ -7,14 +7,13 @@ use crate::design::{
 };
 use crate::governor::{
     AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, BacklashTakeUp,
-    BacklashTakeUpConfig, Barred, BarredConfig, Compensation, Curve, CurveConfig, CycleAverage, DampingLag,
-    DampingLagConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Governor, InputShaper,
-    InputShaperConfig, Limit, LoadSharing, LoadSharingConfig, LoopFilter, MovingAverage, MovingAverageConfig, Sequence,
-    Sequencer, SequencerConfig, SetpointLag, SetpointShape, Slew, SlewConfig, SpeedFilter, SpeedGovernor,
-    SpeedGovernorConfig, SpeedGovernorConfigOf, SpeedLoop, SpeedLoopConfig, SymmetricLimit, SymmetricLimitConfig,
-    TorqueRange, TorqueRangeConfig,
+    BacklashTakeUpConfig, Barred, BarredConfig, Curve, CurveConfig, CycleAverage, DampingLag, DampingLagConfig, Droop,
+    DroopConfig, FeedForward, FeedForwardConfig, Gains, InputShaper, InputShaperConfig, LoadSharing, LoadSharingConfig,
+    LoopFilter, MovingAverage, MovingAverageConfig, Sequencer, SequencerConfig, SetpointLag, Slew, SlewConfig,
+    SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, SymmetricLimit, SymmetricLimitConfig, TorqueRange,
+    TorqueRangeConfig,
 };
-use crate::number::{Fixed, Number};
+use crate::number::{Fixed, Number, Part};
 use crate::settings::{Bases, LoadSharingSettings, SequencerSettings, SpeedLoopSettings};
 
 /// A machine with backlash take-up, or with a slack rope.
@@ -71,18 +70,18 @@ pub trait HasSequencer: Machine {
     const SEQUENCER: SequencerSettings;
 }
 
-impl<M, N, S, F, L, U, V> Configure<M, N> for SpeedGovernor<N, S, F, L, U, V>
+impl<M, N, S, F, L, U, V> Configure<M, N> for SpeedGovernor<S, F, L, U, V>
 where
     M: Machine,
     N: Number,
     Gains<N>: Configure<M, N, Config = Gains<N>>,
-    S: SetpointShape<N> + Configure<M, N, Config = <S as SetpointShape<N>>::Config>,
-    F: Compensation<N> + Configure<M, N, Config = <F as Compensation<N>>::Config>,
-    L: Limit<N> + Configure<M, N, Config = <L as Limit<N>>::Config>,
-    U: Sequence<N> + Configure<M, N, Config = <U as Sequence<N>>::Config>,
-    V: SpeedFilter<N> + Configure<M, N, Config = <V as SpeedFilter<N>>::Config>,
+    S: Configure<M, N>,
+    F: Configure<M, N>,
+    L: Configure<M, N>,
+    U: Configure<M, N>,
+    V: Configure<M, N>,
 {
-    type Config = SpeedGovernorConfigOf<N, S, F, L, U, V>;
+    type Config = SpeedGovernorConfig<N, S::Config, F::Config, L::Config, U::Config, V::Config>;
     const CONFIG: Self::Config = SpeedGovernorConfig {
         gains: <Gains<N> as Configure<M, N>>::CONFIG,
         shape: S::CONFIG,
@@ -104,7 +103,7 @@ where
 }
 
 /// None: the average over a cycle comes from the measurement of the fluctuation.
-impl<M: Machine, N: Number> Configure<M, N> for CycleAverage<N> {
+impl<M: Machine, N: Number> Configure<M, N> for CycleAverage {
     type Config = ();
     const CONFIG: () = ();
     // at rated speed: slower than that the cycle lasts longer
@@ -116,7 +115,7 @@ impl<M: Machine, N: Number> Configure<M, N> for CycleAverage<N> {
 }
 
 /// None: its time constant is that of the loop's gains.
-impl<M: Machine, N: Number> Configure<M, N> for SetpointLag<N> {
+impl<M: Machine, N: Number> Configure<M, N> for SetpointLag {
     type Config = ();
     const CONFIG: () = ();
 }
@@ -135,7 +134,7 @@ macro_rules! parts {
 macro_rules! governors {
     ($number:ident, $bases:expr) => {
         parts! { $number, $bases;
-            [] Machine, DampingLag<$number> => DampingLagConfig<$number>,
+            [] Machine, DampingLag => DampingLagConfig<$number>,
                 DampingLagConfig::<$number>::new(M::SPEED_LOOP.damping_lag, M::PERIOD, $bases);
             [] Machine, Gains<$number> => Gains<$number>, match &M::GAINS {
                 GainSource::SpeedLoop(design) => Gains::<$number>::of_speed_loop(design, M::RAMP, $bases),
@@ -166,69 +165,56 @@ macro_rules! governors {
                 assert!(MOTORS as u32 == M::SHARING.motors, "the load sharing and its settings differ in their motors");
                 LoadSharingConfig::<$number>::new(&M::SHARING, M::PERIOD, $bases)
             };
-            [K] Machine, MovingAverage<$number, K> => MovingAverageConfig<$number, K>,
+            [K] Machine, MovingAverage<K> => MovingAverageConfig<$number, K>,
                 MovingAverageConfig::<$number, K>::of_ticks(),
                 LoopPart { averaging: Averaging::Ticks(K as u32), ..LoopPart::NONE };
         }
 
-        impl<M: Machine, F> Configure<M, $number> for SpeedLoop<$number, F>
+        impl<M: Machine, F> Configure<M, $number> for SpeedLoop<F>
         where
-            F: LoopFilter<$number, Config: Copy> + Configure<M, $number, Config = <F as LoopFilter<$number>>::Config>,
+            F: Part<$number, State: LoopFilter<$number>> + Configure<M, $number, Config: Copy>,
         {
-            type Config = SpeedLoopConfig<$number, <F as LoopFilter<$number>>::Config>;
+            type Config = SpeedLoopConfig<$number, F::Config>;
             const LOOP: LoopPart = LoopPart { gains: Some(GainSource::SpeedLoop(M::SPEED_LOOP)), ..LoopPart::NONE };
             const CONFIG: Self::Config = {
                 assert!(
-                    <F as LoopFilter<$number>>::LAGS_DAMPING == (M::SPEED_LOOP.damping_lag > 0.0),
+                    <F::State as LoopFilter<$number>>::LAGS_DAMPING == (M::SPEED_LOOP.damping_lag > 0.0),
                     "the speed loop's design and its governor differ in the lag of the damping: give the design \
                         with_damping_lag and the governor DampingLag, or neither"
                 );
                 let settings = SpeedLoopSettings { torque_limit: M::RATING.torque_limit, ramp: M::RAMP };
-                SpeedLoopConfig::<$number>::new(&M::SPEED_LOOP, settings, $bases)
-                    .with_filter(<F as Configure<M, $number>>::CONFIG)
+                SpeedLoopConfig::<$number>::new(&M::SPEED_LOOP, settings, $bases).with_filter(F::CONFIG)
             };
         }
 
-        impl<M: HasSlew, L> Configure<M, $number> for Slew<$number, L>
-        where
-            L: Limit<$number, Config: Copy> + Configure<M, $number, Config = <L as Limit<$number>>::Config>,
-        {
-            type Config = SlewConfig<$number, <L as Limit<$number>>::Config>;
-            const CONFIG: Self::Config =
-                SlewConfig::<$number, _>::new(M::SLEW, <L as Configure<M, $number>>::CONFIG, M::PERIOD, $bases);
-            const LOOP: LoopPart = <L as Configure<M, $number>>::LOOP;
+        impl<M: HasSlew, L: Configure<M, $number, Config: Copy>> Configure<M, $number> for Slew<L> {
+            type Config = SlewConfig<$number, L::Config>;
+            const CONFIG: Self::Config = SlewConfig::<$number, _>::new(M::SLEW, L::CONFIG, M::PERIOD, $bases);
+            const LOOP: LoopPart = L::LOOP;
         }
 
         impl<M: HasInputShaper, G, const SLOTS: usize, const PARTS: usize> Configure<M, $number>
-            for InputShaper<$number, G, SLOTS, PARTS>
+            for InputShaper<G, SLOTS, PARTS>
         where
-            G: Governor<$number, Config: Copy> + Configure<M, $number, Config = <G as Governor<$number>>::Config>,
+            G: Configure<M, $number, Config: Copy>,
         {
-            type Config = InputShaperConfig<$number, <G as Governor<$number>>::Config>;
+            type Config = InputShaperConfig<$number, G::Config>;
             const CONFIG: Self::Config = InputShaperConfig::<$number, _>::new(
                 &M::SHAPER,
                 (SLOTS / (PARTS - 1)) as u32,
                 M::RAMP,
-                <G as Configure<M, $number>>::CONFIG,
+                G::CONFIG,
                 M::PERIOD,
                 $bases,
             );
-            const LOOP: LoopPart = <G as Configure<M, $number>>::LOOP;
+            const LOOP: LoopPart = G::LOOP;
         }
 
-        impl<M: HasBacklash, L> Configure<M, $number> for BacklashTakeUp<$number, L>
-        where
-            L: Limit<$number, Config: Copy> + Configure<M, $number, Config = <L as Limit<$number>>::Config>,
-        {
-            type Config = BacklashTakeUpConfig<$number, <L as Limit<$number>>::Config>;
-            const CONFIG: Self::Config = BacklashTakeUpConfig::<$number, _>::new(
-                &M::TAKE_UP,
-                M::GAINS.proportional(),
-                <L as Configure<M, $number>>::CONFIG,
-                $bases,
-            );
-            const LOOP: LoopPart =
-                LoopPart { damping: M::TAKE_UP.damping, ..LoopPart::NONE }.and(&<L as Configure<M, $number>>::LOOP);
+        impl<M: HasBacklash, L: Configure<M, $number, Config: Copy>> Configure<M, $number> for BacklashTakeUp<L> {
+            type Config = BacklashTakeUpConfig<$number, L::Config>;
+            const CONFIG: Self::Config =
+                BacklashTakeUpConfig::<$number, _>::new(&M::TAKE_UP, M::GAINS.proportional(), L::CONFIG, $bases);
+            const LOOP: LoopPart = LoopPart { damping: M::TAKE_UP.damping, ..LoopPart::NONE }.and(&L::LOOP);
         }
     };
 }

@@ -16,7 +16,7 @@ pub trait HasLife: Machine {
 
 macro_rules! rainflow {
     ($number:ident $(, $base:expr)?) => {
-        impl<M: HasLife, const CLASSES: usize> Configure<M, $number> for Rainflow<$number, CLASSES> {
+        impl<M: HasLife, const CLASSES: usize> Configure<M, $number> for Rainflow<CLASSES> {
             type Config = TorqueClasses<$number>;
             const CONFIG: Self::Config =
                 TorqueClasses::<$number>::new::<CLASSES>(M::CLASSED_TORQUE $(, $base)?).with_period(M::PERIOD);

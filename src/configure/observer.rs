@@ -6,7 +6,7 @@ use crate::learning::{Correction, EccentricityObserver};
 use crate::number::Fixed;
 use crate::observer::{
     BacklashConfig, BacklashObserver, CrankConfig, CrankObserver, GearedConfig, GearedObserver, LoadGearConfig,
-    LoadGearObserver, Observer, RigidConfig, RigidObserver, SemiImplicitConfig, SemiImplicitObserver, TwoMassConfig,
+    LoadGearObserver, RigidConfig, RigidObserver, SemiImplicitConfig, SemiImplicitObserver, TwoMassConfig,
     TwoMassObserver,
 };
 use crate::settings::Bases;
@@ -19,71 +19,54 @@ pub trait HasCrank: Machine {
     const CRANK_OBSERVER: CrankedDesign = Self::CRANKED.observer(Self::RATE, Self::ENCODER, Self::DISTURBANCE);
 }
 
-impl<M, N, O> Configure<M, N> for EccentricityObserver<N, O>
-where
-    M: Machine,
-    N: Correction,
-    O: Observer<N> + Configure<M, N, Config = <O as Observer<N>>::Config>,
-{
-    type Config = <O as Observer<N>>::Config;
-    const CONFIG: Self::Config = <O as Configure<M, N>>::CONFIG;
-    const LOOP: LoopPart = <O as Configure<M, N>>::LOOP;
+impl<M: Machine, N: Correction, O: Configure<M, N>> Configure<M, N> for EccentricityObserver<O> {
+    type Config = O::Config;
+    const CONFIG: Self::Config = O::CONFIG;
+    const LOOP: LoopPart = O::LOOP;
 }
 
 macro_rules! observers {
     ($number:ident, $bases:expr) => {
-        impl<M: Machine> Configure<M, $number> for TwoMassObserver<$number> {
+        impl<M: Machine> Configure<M, $number> for TwoMassObserver {
             type Config = TwoMassConfig<$number>;
             const CONFIG: Self::Config = TwoMassConfig::<$number>::new(&M::OBSERVER, $bases);
             const LOOP: LoopPart = LoopPart { two_mass: Some(M::OBSERVER), ..LoopPart::NONE };
         }
 
-        impl<M: Machine> Configure<M, $number> for SemiImplicitObserver<$number> {
+        impl<M: Machine> Configure<M, $number> for SemiImplicitObserver {
             type Config = SemiImplicitConfig<$number>;
             const CONFIG: Self::Config = SemiImplicitConfig::<$number>::new(&M::OBSERVER, $bases);
             const LOOP: LoopPart = LoopPart { two_mass: Some(M::OBSERVER), ..LoopPart::NONE };
         }
 
-        impl<M: Machine> Configure<M, $number> for RigidObserver<$number> {
+        impl<M: Machine> Configure<M, $number> for RigidObserver {
             type Config = RigidConfig<$number>;
             const CONFIG: Self::Config = RigidConfig::<$number>::new(&M::RIGID_OBSERVER, M::LOAD_SHARE, $bases);
             const LOOP: LoopPart = LoopPart { rigid: Some(M::RIGID_OBSERVER), ..LoopPart::NONE };
         }
 
-        impl<M: Machine> Configure<M, $number> for BacklashObserver<$number> {
+        impl<M: Machine> Configure<M, $number> for BacklashObserver {
             type Config = BacklashConfig<$number>;
             const CONFIG: Self::Config = BacklashConfig::<$number>::new(&M::BACKLASH_OBSERVER, $bases);
             const LOOP: LoopPart = LoopPart { two_mass: Some(M::BACKLASH_OBSERVER.contact), ..LoopPart::NONE };
         }
 
-        impl<M: HasCrank> Configure<M, $number> for CrankObserver<$number> {
+        impl<M: HasCrank> Configure<M, $number> for CrankObserver {
             type Config = CrankConfig<$number>;
             const CONFIG: Self::Config = CrankConfig::<$number>::new(&M::CRANK_OBSERVER, $bases);
             const LOOP: LoopPart = LoopPart { rigid: Some(M::CRANK_OBSERVER.rigid), ..LoopPart::NONE };
         }
 
-        impl<M: Machine, O> Configure<M, $number> for GearedObserver<O>
-        where
-            O: Observer<$number, Config: Copy> + Configure<M, $number, Config = <O as Observer<$number>>::Config>,
-        {
-            type Config = GearedConfig<$number, <O as Observer<$number>>::Config>;
-            const CONFIG: Self::Config =
-                GearedConfig::<$number, _>::new(<O as Configure<M, $number>>::CONFIG, &M::GEAR, M::PERIOD, $bases);
-            const LOOP: LoopPart = <O as Configure<M, $number>>::LOOP;
+        impl<M: Machine, O: Configure<M, $number, Config: Copy>> Configure<M, $number> for GearedObserver<O> {
+            type Config = GearedConfig<$number, O::Config>;
+            const CONFIG: Self::Config = GearedConfig::<$number, _>::new(O::CONFIG, &M::GEAR, M::PERIOD, $bases);
+            const LOOP: LoopPart = O::LOOP;
         }
 
-        impl<M: Machine, O> Configure<M, $number> for LoadGearObserver<O>
-        where
-            O: Observer<$number, Config: Copy> + Configure<M, $number, Config = <O as Observer<$number>>::Config>,
-        {
-            type Config = LoadGearConfig<$number, <O as Observer<$number>>::Config>;
-            const CONFIG: Self::Config = LoadGearConfig::<$number, _>::new(
-                <O as Configure<M, $number>>::CONFIG,
-                &M::LOAD_GEAR,
-                M::PERIOD,
-                $bases,
-            );
-            const LOOP: LoopPart = <O as Configure<M, $number>>::LOOP;
+        impl<M: Machine, O: Configure<M, $number, Config: Copy>> Configure<M, $number> for LoadGearObserver<O> {
+            type Config = LoadGearConfig<$number, O::Config>;
+            const CONFIG: Self::Config = LoadGearConfig::<$number, _>::new(O::CONFIG, &M::LOAD_GEAR, M::PERIOD, $bases);
+            const LOOP: LoopPart = O::LOOP;
         }
     };
 }

@@ -25,7 +25,7 @@ const fn per_unit(mut measured: PhasorSettings, base: f64) -> PhasorSettings {
 macro_rules! phasors {
     ($number:ident, $base:expr) => {
         impl<M: HasVibration, const CHANNELS: usize, const EDGES: usize> Configure<M, $number>
-            for Phasors<$number, CHANNELS, EDGES>
+            for Phasors<CHANNELS, EDGES>
         {
             type Config = PhasorsConfig<$number, CHANNELS>;
             const CONFIG: Self::Config = PhasorsConfig::<$number, CHANNELS>::new(

@@ -5,20 +5,20 @@ use crate::balancing::Balancer;
 use crate::fault::Faults;
 use crate::fluctuation::Fluctuation;
 use crate::governor::Governor;
-use crate::number::Number;
+use crate::number::{Number, Part};
 use crate::observer::Observer;
 use crate::sample::{Command, Sample};
 
 /// The most ticks that did not run which [`Drive::make_up`] predicts: it bounds the time of the call.
 pub const MADE_UP: u32 = 8;
 
-impl<N, O, F, G, B, const SEAL: i32> Drive<N, O, F, G, B, SEAL>
+impl<N, O, G, F, B, const SEAL: i32> Drive<N, O, G, F, B, SEAL>
 where
     N: Number,
-    O: Observer<N>,
-    F: Fluctuation<N>,
-    G: Governor<N>,
-    B: Balancer<N>,
+    O: Part<N, State: Observer<N>>,
+    G: Part<N, State: Governor<N>>,
+    F: Part<N, State: Fluctuation<N>>,
+    B: Part<N, State: Balancer<N>>,
 {
     /// One tick by prediction alone (dead reckoning), without an angle: the sensor's bus failed, or its value was
     /// invalid or not new.

@@ -4,17 +4,17 @@ use super::{Config, ConfigOf, Drive};
 use crate::balancing::Balancer;
 use crate::fluctuation::Fluctuation;
 use crate::governor::Governor;
-use crate::number::{Interpolate, Number};
+use crate::number::{Interpolate, Number, Part};
 use crate::observer::Observer;
 use crate::scheduling::Schedule;
 
-impl<N, O, F, G, B, const SEAL: i32> Drive<N, O, F, G, B, SEAL>
+impl<N, O, G, F, B, const SEAL: i32> Drive<N, O, G, F, B, SEAL>
 where
     N: Number,
-    O: Observer<N>,
-    F: Fluctuation<N>,
-    G: Governor<N>,
-    B: Balancer<N>,
+    O: Part<N, State: Observer<N>>,
+    G: Part<N, State: Governor<N>>,
+    F: Part<N, State: Fluctuation<N>>,
+    B: Part<N, State: Balancer<N>>,
 {
     /// Bumpless transfer from the constants `from` to `to`, between two ticks: estimate and torque are the same under
     /// both. Every further tick takes `to`.
@@ -32,14 +32,14 @@ where
     pub fn follow<const I: usize, const K: usize>(
         &mut self,
         config: &mut ConfigOf<Self>,
-        schedule: &Schedule<(O::Config, G::Config), I, K>,
+        schedule: &Schedule<(<O::State as Observer<N>>::Config, <G::State as Governor<N>>::Config), I, K>,
         first: f32,
         second: f32,
     ) where
-        O::Config: Interpolate,
-        G::Config: Interpolate,
-        F::Config: Copy,
-        B::Config: Copy,
+        O::State: Observer<N, Config: Interpolate>,
+        G::State: Governor<N, Config: Interpolate>,
+        F::State: Fluctuation<N, Config: Copy>,
+        B::State: Balancer<N, Config: Copy>,
     {
         let (observer, governor) = schedule.at(first, second);
         let Config { limits, fluctuation, balancer, .. } = *config;

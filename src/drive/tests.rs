@@ -5,8 +5,8 @@ use crate::fault::Faults;
 use crate::observer::{RigidConfig, RigidObserver};
 use crate::sample::Sample;
 
-const NONE_YET: i32 = Drive::<f64, RigidObserver<f64>>::NONE_YET;
-const ONE: i32 = Drive::<f64, RigidObserver<f64>>::ONE;
+const NONE_YET: i32 = Drive::<f64, RigidObserver>::NONE_YET;
+const ONE: i32 = Drive::<f64, RigidObserver>::ONE;
 
 /// 2^32 per turn and ticks as units of angle and time, an inertia of one: no encoder, gains of a third.
 const CONFIG: Config<f64, RigidConfig<f64>> = Config {
@@ -24,7 +24,7 @@ const CONFIG: Config<f64, RigidConfig<f64>> = Config {
     balancer: (),
 };
 
-fn tick(drive: &mut Drive<f64, RigidObserver<f64>>, angle: u32) -> (Faults, i32) {
+fn tick(drive: &mut Drive<f64, RigidObserver>, angle: u32) -> (Faults, i32) {
     let faults = drive.tick(&CONFIG, &Sample { angle, torque: 0.0, setpoint: 0.0 }).faults;
     (faults, drive.coasted)
 }
@@ -68,7 +68,7 @@ fn two_angles_that_differ_by_more_give_the_speed() {
 
 #[test]
 fn without_a_governor_the_last_plausible_torque_stands_in() {
-    let mut drive = Drive::<f64, RigidObserver<f64>>::new(&CONFIG, 0);
+    let mut drive = Drive::<f64, RigidObserver>::new(&CONFIG, 0);
     drive.tick(&CONFIG, &Sample { angle: 0, torque: 1.0, setpoint: 0.0 });
     for torque in [f64::NAN, f64::INFINITY, -10.1] {
         let command = drive.tick(&CONFIG, &Sample { angle: 0, torque, setpoint: 0.0 });
@@ -79,7 +79,7 @@ fn without_a_governor_the_last_plausible_torque_stands_in() {
 /// Memory of zeros and of equal bytes is what a caller forgets to initialise.
 #[test]
 fn a_seal_is_whole_in_every_state_of_a_drive_and_in_no_memory_of_equal_bytes() {
-    type Sealed = Drive<f64, RigidObserver<f64>, (), (), (), 0x5b00_5b00>;
+    type Sealed = Drive<f64, RigidObserver, (), (), (), 0x5b00_5b00>;
     let mut drive = Sealed::new(&CONFIG, 0);
     assert_eq!(Sealed::seal(&CONFIG, drive.coasted as u32), Seal::Sighted, "new");
     let mut tick = |angle| {

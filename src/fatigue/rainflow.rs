@@ -4,6 +4,7 @@ use super::class::COUNT;
 use super::counts::LONGEST;
 use super::{Classed, Counts, TorqueClasses};
 use crate::fluctuation::Fluctuation;
+use crate::number::Part;
 use crate::sample::Estimate;
 
 /// Ranges in front of the residue, of which none closes a cycle: each is smaller than the next.
@@ -18,7 +19,7 @@ const BEFORE: [i8; 3] = [-2, -1, 0];
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 // In this order, the tables last: what stands behind them is beyond the reach of a load.
 #[repr(C)]
-pub struct Rainflow<N, const CLASSES: usize> {
+pub struct Rainflow<const CLASSES: usize, N = f32> {
     /// The largest torque, either way.
     largest: N,
     /// Ticks with a reversal for which there was no place.
@@ -40,7 +41,11 @@ pub struct Rainflow<N, const CLASSES: usize> {
     ticks: [u32; CLASSES],
 }
 
-impl<N: Classed, const CLASSES: usize> Default for Rainflow<N, CLASSES> {
+impl<N, const CLASSES: usize> Part<N> for Rainflow<CLASSES> {
+    type State = Rainflow<CLASSES, N>;
+}
+
+impl<N: Classed, const CLASSES: usize> Default for Rainflow<CLASSES, N> {
     fn default() -> Self {
         let mut ranges = [0; LONGEST];
         ranges[..BEFORE.len()].copy_from_slice(&BEFORE);
@@ -64,7 +69,7 @@ impl<N: Classed, const CLASSES: usize> Default for Rainflow<N, CLASSES> {
     }
 }
 
-impl<N: Classed, const CLASSES: usize> Fluctuation<N> for Rainflow<N, CLASSES> {
+impl<N: Classed, const CLASSES: usize> Fluctuation<N> for Rainflow<CLASSES, N> {
     type Config = TorqueClasses<N>;
 
     #[inline(always)]
@@ -91,7 +96,7 @@ impl<N: Classed, const CLASSES: usize> Fluctuation<N> for Rainflow<N, CLASSES> {
     fn disturb(&mut self) {}
 }
 
-impl<N: Classed, const CLASSES: usize> Rainflow<N, CLASSES> {
+impl<N: Classed, const CLASSES: usize> Rainflow<CLASSES, N> {
     /// Follows the torque, in quarters of a class; where it turns round its last class is a reversal, and its range
     /// goes into the queue. It leaves a class by a quarter: noise about a boundary between two classes is no reversal.
     #[inline(always)]

@@ -33,7 +33,7 @@ impl LifeRecord {
     /// two ticks.
     pub fn take<N: Classed, const CLASSES: usize>(
         &mut self,
-        count: &mut Rainflow<N, CLASSES>,
+        count: &mut Rainflow<CLASSES, N>,
         config: &TorqueClasses<N>,
         line: &WoehlerLine,
         limit: f64,
@@ -47,7 +47,7 @@ impl LifeRecord {
     /// controller is switched off, so that the cycle from start to stop counts.
     pub fn close<N: Classed, const CLASSES: usize>(
         &mut self,
-        count: &mut Rainflow<N, CLASSES>,
+        count: &mut Rainflow<CLASSES, N>,
         config: &TorqueClasses<N>,
         line: &WoehlerLine,
         limit: f64,

@@ -19,7 +19,7 @@
 
 use super::position::{Crossing, Position};
 use super::{CycleConfig, Fluctuation};
-use crate::number::Number;
+use crate::number::{Number, Part};
 use crate::sample::Estimate;
 
 /// Ticks that a cycle may last: 419 s at 10 kHz.
@@ -53,7 +53,7 @@ struct Mark<N> {
 /// quarter of a turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct CycleMean<N, const SEGMENTS: usize> {
+pub struct CycleMean<const SEGMENTS: usize, N = f32> {
     position: Position,
     tick: u32,
     /// The tick of the last angle that could not be used.
@@ -70,7 +70,11 @@ pub struct CycleMean<N, const SEGMENTS: usize> {
     mean: N,
 }
 
-impl<N: Number, const SEGMENTS: usize> Default for CycleMean<N, SEGMENTS> {
+impl<N, const SEGMENTS: usize> Part<N> for CycleMean<SEGMENTS> {
+    type State = CycleMean<SEGMENTS, N>;
+}
+
+impl<N: Number, const SEGMENTS: usize> Default for CycleMean<SEGMENTS, N> {
     fn default() -> Self {
         const {
             assert!(
@@ -94,7 +98,7 @@ impl<N: Number, const SEGMENTS: usize> Default for CycleMean<N, SEGMENTS> {
     }
 }
 
-impl<N: Number, const SEGMENTS: usize> Fluctuation<N> for CycleMean<N, SEGMENTS> {
+impl<N: Number, const SEGMENTS: usize> Fluctuation<N> for CycleMean<SEGMENTS, N> {
     type Config = CycleMeanConfig<N>;
 
     #[inline(always)]
@@ -120,7 +124,7 @@ impl<N: Number, const SEGMENTS: usize> Fluctuation<N> for CycleMean<N, SEGMENTS>
     }
 }
 
-impl<N: Number, const SEGMENTS: usize> CycleMean<N, SEGMENTS> {
+impl<N: Number, const SEGMENTS: usize> CycleMean<SEGMENTS, N> {
     fn give_up(&mut self) {
         self.known = 0;
         self.stands = 0;

@@ -21,6 +21,7 @@ pub use reading::{Extreme, Fluctuations, Reading};
 
 use super::position::{Position, RADIANS, Way};
 use super::{CycleConfig, Edge, Fluctuation};
+use crate::number::Part;
 use crate::sample::Estimate;
 use peak::{Peak, SEGMENTS, Speed, place};
 
@@ -72,7 +73,7 @@ type Finished<R> = [[Peak<R>; 2]; 2];
 /// Cycle by cycle: mean, extremes and delta of the motor's and of the load's speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Extremes<N: Ranked> {
+pub struct Extremes<N: Ranked = f32> {
     tick: u32,
     slice: Slice,
     /// Direction in which the end of the present cycle was passed, and the ends before.
@@ -90,6 +91,10 @@ pub struct Extremes<N: Ranked> {
     good: u32,
     finished: [Finished<N::Rank>; 2],
     cycles: u32,
+}
+
+impl<N: Ranked> Part<N> for Extremes {
+    type State = Extremes<N>;
 }
 
 impl<N: Ranked> Fluctuation<N> for Extremes<N> {

@@ -5,17 +5,22 @@
 //! and a turn of a longer one, must have 160 ticks.
 
 use super::{Extremes, Fluctuation, Ranked, Summed, Waveform, WaveformConfig};
+use crate::number::Part;
 use crate::sample::Estimate;
 
 /// [`Waveform`] and [`Extremes`] of the same cycle, at less than the cost of the pair.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Interleaved<N: Summed + Ranked, const BINS: usize> {
-    waveform: Waveform<N, BINS>,
+pub struct Interleaved<const BINS: usize, N: Summed + Ranked = f32> {
+    waveform: Waveform<BINS, N>,
     extremes: Extremes<N>,
 }
 
-impl<N: Summed + Ranked, const BINS: usize> Fluctuation<N> for Interleaved<N, BINS> {
+impl<N: Summed + Ranked, const BINS: usize> Part<N> for Interleaved<BINS> {
+    type State = Interleaved<BINS, N>;
+}
+
+impl<N: Summed + Ranked, const BINS: usize> Fluctuation<N> for Interleaved<BINS, N> {
     type Config = WaveformConfig;
 
     #[inline(always)]
@@ -37,14 +42,14 @@ impl<N: Summed + Ranked, const BINS: usize> Fluctuation<N> for Interleaved<N, BI
     }
 }
 
-impl<N: Summed + Ranked, const BINS: usize> Interleaved<N, BINS> {
+impl<N: Summed + Ranked, const BINS: usize> Interleaved<BINS, N> {
     /// The waveform.
-    pub fn waveform(&self) -> &Waveform<N, BINS> {
+    pub fn waveform(&self) -> &Waveform<BINS, N> {
         &self.waveform
     }
 
     /// The waveform, to take its finished windows.
-    pub fn waveform_mut(&mut self) -> &mut Waveform<N, BINS> {
+    pub fn waveform_mut(&mut self) -> &mut Waveform<BINS, N> {
         &mut self.waveform
     }
 
@@ -68,7 +73,7 @@ mod tests {
     #[test]
     fn ticks_take_turns() {
         let estimate = Estimate { motor_speed: 3.0, load_speed: 2.0, ..Estimate::default() };
-        let (mut both, mut extremes) = (Interleaved::<f32, 32>::default(), Extremes::default());
+        let (mut both, mut extremes) = (Interleaved::<32, f32>::default(), Extremes::default());
         for tick in 1..=8 {
             both.measure(&CONFIG, 7, 0.0, &estimate);
             match tick % 4 {
@@ -88,7 +93,7 @@ mod tests {
     #[cfg_attr(miri, ignore = "an interpreter takes half an hour")]
     fn the_first_turn_may_begin_anywhere() {
         for (start, sign) in (0..64).flat_map(|start| [(start, 1.0), (start, -1.0)]) {
-            let mut both = Interleaved::<f32, 32>::default();
+            let mut both = Interleaved::<32, f32>::default();
             let (begin, mut windows) = (core::f64::consts::TAU * (f64::from(start) + 0.7) / 64.0, 0);
             let (mut phi, mut mean) = (begin, 0.0_f64);
             for tick in 0..30_000 {
@@ -153,7 +158,7 @@ mod tests {
             }
         }
         run::<crate::fluctuation::Extremes<f32>>(&CYCLE, 96.0, |one| one.reading(&CYCLE));
-        run::<Interleaved<f32, 32>>(&CONFIG, 160.0, |both| both.extremes().reading(&CYCLE));
+        run::<Interleaved<32>>(&CONFIG, 160.0, |both| both.extremes().reading(&CYCLE));
     }
 
     /// An angle that is lost as the end of a segment is being dealt with: no turn of it is a reading.
@@ -162,7 +167,7 @@ mod tests {
         let every = if cfg!(miri) { 420 } else { 1 };
         for (begin, gap) in (2_000..2_420).step_by(every).flat_map(|begin| [110, 150, 190, 260].map(|gap| (begin, gap)))
         {
-            let mut both = Interleaved::<f32, 32>::default();
+            let mut both = Interleaved::<32, f32>::default();
             for tick in 0..4_000_u32 {
                 let phi = 0.015 * f64::from(tick);
                 let angle = (phi / core::f64::consts::TAU).fract() * 4_294_967_296.0;
@@ -188,7 +193,7 @@ mod tests {
     #[cfg_attr(miri, ignore = "an interpreter takes half an hour")]
     fn waveform_and_extremes_are_those_of_the_speed() {
         for sign in [1.0, -1.0] {
-            let mut both = Interleaved::<f32, 32>::default();
+            let mut both = Interleaved::<32, f32>::default();
             let (mut phi, mut windows) = (0.0_f64, 0);
             for tick in 0..40_000 {
                 let speed = |share: f64| sign * 150.0 * (1.0 + share * (2.0 * phi).cos());

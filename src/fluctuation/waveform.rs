@@ -12,6 +12,7 @@
 
 use super::position::{Position, Way};
 use super::{Bin, Edge, Fluctuation, Summed, WaveformConfig, Window};
+use crate::number::Part;
 use crate::sample::Estimate;
 
 /// Ticks that a window may last, so that no bin's sum of the distances overflows: 419 s at 10 kHz.
@@ -75,7 +76,7 @@ enum Slice {
 /// The waveform of a cycle's speed and torque over some cycles, in `BINS` bins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Waveform<N: Summed, const BINS: usize> {
+pub struct Waveform<const BINS: usize, N: Summed = f32> {
     tick: u32,
     stage: Stage,
     /// The stage that the cycle's end leads to.
@@ -93,7 +94,11 @@ pub struct Waveform<N: Summed, const BINS: usize> {
     bins: [Bin<N>; BINS],
 }
 
-impl<N: Summed, const BINS: usize> Default for Waveform<N, BINS> {
+impl<N: Summed, const BINS: usize> Part<N> for Waveform<BINS> {
+    type State = Waveform<BINS, N>;
+}
+
+impl<N: Summed, const BINS: usize> Default for Waveform<BINS, N> {
     fn default() -> Self {
         const { assert!(BINS.is_power_of_two(), "the bins of a waveform must be a power of two") };
         Waveform {
@@ -113,7 +118,7 @@ impl<N: Summed, const BINS: usize> Default for Waveform<N, BINS> {
     }
 }
 
-impl<N: Summed, const BINS: usize> Fluctuation<N> for Waveform<N, BINS> {
+impl<N: Summed, const BINS: usize> Fluctuation<N> for Waveform<BINS, N> {
     type Config = WaveformConfig;
 
     #[inline(always)]
@@ -131,7 +136,7 @@ impl<N: Summed, const BINS: usize> Fluctuation<N> for Waveform<N, BINS> {
     }
 }
 
-impl<N: Summed, const BINS: usize> Waveform<N, BINS> {
+impl<N: Summed, const BINS: usize> Waveform<BINS, N> {
     fn give_up(&mut self) {
         if self.stage == Stage::Filling {
             self.stage = Stage::Void;

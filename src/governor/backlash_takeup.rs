@@ -22,7 +22,7 @@
 //! meets the flank under its largest torque.
 
 use super::Limit;
-use crate::number::Number;
+use crate::number::{Number, Part};
 use crate::sample::Estimate;
 
 /// Constants of [`BacklashTakeUp`].
@@ -50,12 +50,16 @@ pub struct BacklashTakeUpConfig<N: Number, L> {
 /// Another limit, and an open gap is closed with little torque.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct BacklashTakeUp<N, L> {
+pub struct BacklashTakeUp<L, N = f32> {
     reach: N,
     limit: L,
 }
 
-impl<N: Number, L: Limit<N>> Limit<N> for BacklashTakeUp<N, L> {
+impl<N, L: Part<N>> Part<N> for BacklashTakeUp<L> {
+    type State = BacklashTakeUp<L::State, N>;
+}
+
+impl<N: Number, L: Limit<N>> Limit<N> for BacklashTakeUp<L, N> {
     type Config = BacklashTakeUpConfig<N, L::Config>;
 
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! Compensation torque: load feed-forward, active damping, acceleration feedback.
 
-use crate::number::Number;
+use crate::number::{Number, Part};
 use crate::sample::Estimate;
 
 /// Compensation torque added to the loop's; `()` adds none, a tuple adds one after the other.
@@ -48,6 +48,10 @@ impl<N: Number, A: Compensation<N>, B: Compensation<N>> Compensation<N> for (A, 
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FeedForward;
 
+impl<N> Part<N> for FeedForward {
+    type State = Self;
+}
+
 /// Constants of [`FeedForward`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -69,6 +73,10 @@ impl<N: Number> Compensation<N> for FeedForward {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ActiveDamping;
+
+impl<N> Part<N> for ActiveDamping {
+    type State = Self;
+}
 
 /// Constants of [`ActiveDamping`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,6 +105,10 @@ impl<N: Number> Compensation<N> for ActiveDamping {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct AccelerationFeedback;
+
+impl<N> Part<N> for AccelerationFeedback {
+    type State = Self;
+}
 
 /// Constants of [`AccelerationFeedback`].
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Input shaping of the setpoint: a swinging load is at rest when the drive is.
 
 use crate::governor::Governor;
-use crate::number::Number;
+use crate::number::{Number, Part};
 use crate::sample::Estimate;
 
 /// A governor whose setpoint is given in `PARTS`, each a ramp half a period of the load's swing after the one before:
@@ -19,7 +19,7 @@ use crate::sample::Estimate;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 // The order keeps the runs of words that a start clears short: for long ones the compiler calls a loop to clear them.
 #[repr(C)]
-pub struct InputShaper<N, G, const SLOTS: usize, const PARTS: usize = 3> {
+pub struct InputShaper<G, const SLOTS: usize, const PARTS: usize = 3, N = f32> {
     setpoint: N,
     /// Speed at the start: the setpoint of the time before it.
     initial: N,
@@ -31,6 +31,10 @@ pub struct InputShaper<N, G, const SLOTS: usize, const PARTS: usize = 3> {
     governor: G,
     targets: [N; PARTS],
     ramped: [N; PARTS],
+}
+
+impl<N, G: Part<N>, const SLOTS: usize, const PARTS: usize> Part<N> for InputShaper<G, SLOTS, PARTS> {
+    type State = InputShaper<G::State, SLOTS, PARTS, N>;
 }
 
 /// Constants of [`InputShaper`].
@@ -47,7 +51,7 @@ pub struct InputShaperConfig<N: Number, C> {
     pub governor: C,
 }
 
-impl<N: Number, G: Default, const SLOTS: usize, const PARTS: usize> Default for InputShaper<N, G, SLOTS, PARTS> {
+impl<N: Number, G: Default, const SLOTS: usize, const PARTS: usize> Default for InputShaper<G, SLOTS, PARTS, N> {
     fn default() -> Self {
         const {
             assert!(
@@ -69,7 +73,7 @@ impl<N: Number, G: Default, const SLOTS: usize, const PARTS: usize> Default for 
     }
 }
 
-impl<N: Number, G, const SLOTS: usize, const PARTS: usize> InputShaper<N, G, SLOTS, PARTS> {
+impl<N: Number, G, const SLOTS: usize, const PARTS: usize> InputShaper<G, SLOTS, PARTS, N> {
     /// The governor inside.
     pub fn governor(&self) -> &G {
         &self.governor
@@ -128,7 +132,7 @@ impl<N: Number, G, const SLOTS: usize, const PARTS: usize> InputShaper<N, G, SLO
 }
 
 impl<N: Number, G: Governor<N>, const SLOTS: usize, const PARTS: usize> Governor<N>
-    for InputShaper<N, G, SLOTS, PARTS>
+    for InputShaper<G, SLOTS, PARTS, N>
 {
     type Config = InputShaperConfig<N, G::Config>;
 

@@ -1,6 +1,6 @@
 //! Filters in the speed loop: lag of the setpoint, lag of the active damping.
 
-use crate::number::Number;
+use crate::number::{Number, Part};
 
 /// Filters in a [`SpeedLoop`](super::SpeedLoop); `()` is none, a tuple is one after the other.
 ///
@@ -80,8 +80,12 @@ impl<N: Number, A: LoopFilter<N>, B: LoopFilter<N>> LoopFilter<N> for (A, B) {
 /// The state is the distance to the ramp, which decays to nothing: no bit of the setpoint is lost.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct SetpointLag<N> {
+pub struct SetpointLag<N = f32> {
     behind: N,
+}
+
+impl<N> Part<N> for SetpointLag {
+    type State = SetpointLag<N>;
 }
 
 impl<N: Number> LoopFilter<N> for SetpointLag<N> {
@@ -106,8 +110,12 @@ impl<N: Number> LoopFilter<N> for SetpointLag<N> {
 /// times the frequency nine tenths.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct DampingLag<N> {
+pub struct DampingLag<N = f32> {
     twist_rate: N,
+}
+
+impl<N> Part<N> for DampingLag {
+    type State = DampingLag<N>;
 }
 
 /// Constants of [`DampingLag`].
@@ -165,7 +173,7 @@ mod tests {
     /// pendulum's `load`, swinging at `swing` with the motor at rest. The second is the pendulum's.
     fn run<F: LoopFilter<f64, Config = ()>>(w: f64, load: f64, swing: f64, ticks: usize) -> Vec<(f64, f64)> {
         let config = config(1.0 + load, w);
-        let mut governor = SpeedLoop::<f64, F>::default();
+        let mut governor = SpeedLoop::<F, f64>::default();
         let (mut motor, mut speed, mut twist) = (0.0, 0.0, 0.0);
         let mut torques = Vec::new();
         for _ in 0..ticks {
@@ -272,8 +280,8 @@ mod tests {
     /// No filter takes no room.
     #[test]
     fn no_filter_takes_no_room() {
-        assert_eq!(size_of::<SpeedLoop<f32>>(), 12);
-        assert_eq!(size_of::<SpeedLoop<f32, SetpointLag<f32>>>(), 16);
+        assert_eq!(size_of::<SpeedLoop>(), 12);
+        assert_eq!(size_of::<SpeedLoop<SetpointLag<f32>>>(), 16);
         assert_eq!(size_of::<SpeedLoopConfig<f32, DampingLagConfig<f32>>>(), size_of::<SpeedLoopConfig<f32>>() + 4);
     }
 }

@@ -5,7 +5,7 @@
 //! interval at rated speed contains none of the firing orders. For a varying speed or a long cycle the ripple follows
 //! the angle: [`CycleAverage`] takes the speed without its ripple from the drive's measurement of the fluctuation.
 
-use crate::number::Number;
+use crate::number::{Number, Part};
 use crate::sample::Estimate;
 
 /// A filter of the speed; `()` passes the estimates unchanged.
@@ -48,13 +48,17 @@ impl<N: Number> SpeedFilter<N> for () {
 /// half of it. Shaft torque and load speed pass unchanged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct MovingAverage<N, const K: usize> {
+pub struct MovingAverage<const K: usize, N = f32> {
     past: [[N; 2]; K],
     sum: [N; 2],
     /// The sum of the ring up to here, by additions alone. It replaces the running sum once a round, so that roundings
     /// do not accumulate.
     fresh: [N; 2],
     at: u32,
+}
+
+impl<N, const K: usize> Part<N> for MovingAverage<K> {
+    type State = MovingAverage<K, N>;
 }
 
 /// Constants of [`MovingAverage`].
@@ -65,14 +69,14 @@ pub struct MovingAverageConfig<N: Number, const K: usize> {
     pub share: N::Coefficient,
 }
 
-impl<N: Number, const K: usize> Default for MovingAverage<N, K> {
+impl<N: Number, const K: usize> Default for MovingAverage<K, N> {
     fn default() -> Self {
         const { assert!(K.is_power_of_two() && K >= 4 && K <= 1 << 16, "a mean is over a power of two of ticks") };
         MovingAverage { past: [[N::ZERO; 2]; K], sum: [N::ZERO; 2], fresh: [N::ZERO; 2], at: 0 }
     }
 }
 
-impl<N: Number, const K: usize> SpeedFilter<N> for MovingAverage<N, K> {
+impl<N: Number, const K: usize> SpeedFilter<N> for MovingAverage<K, N> {
     type Config = MovingAverageConfig<N, K>;
 
     #[inline(always)]
@@ -115,8 +119,12 @@ impl<N: Number, const K: usize> SpeedFilter<N> for MovingAverage<N, K> {
 /// take [`MovingAverage`], which averages the load torque as well.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct CycleAverage<N> {
+pub struct CycleAverage<N = f32> {
     steady_speed: Option<N>,
+}
+
+impl<N> Part<N> for CycleAverage {
+    type State = CycleAverage<N>;
 }
 
 impl<N: Number> SpeedFilter<N> for CycleAverage<N> {

@@ -9,7 +9,6 @@
 //! limited torque, whichever part limits it: torque, power or slew. [`BacklashTakeUp`](super::BacklashTakeUp) moves the
 //! ramped setpoint back as well.
 //!
-//! - **`N`**, the number: `f32`, `f64` or [`Fixed`](crate::number::Fixed)
 //! - **`S`**, shaping of the setpoint: `()` isochronous, [`Droop`](super::Droop), [`Barred`](super::Barred)
 //! - **`F`**, compensation: `()` none, [`FeedForward`](super::FeedForward), [`ActiveDamping`](super::ActiveDamping),
 //!   [`AccelerationFeedback`](super::AccelerationFeedback)
@@ -19,10 +18,10 @@
 //! - **`V`**, speed filter: `()` none, [`MovingAverage`](super::MovingAverage) over an engine's firing interval,
 //!   [`CycleAverage`](super::CycleAverage) over a cycle
 //!
-//! Two parts of one kind are a tuple: `(Droop, Barred<f32, 2>)`. A part left out costs nothing.
+//! Two parts of one kind are a tuple: `(Droop, Barred<2>)`. A part left out costs nothing.
 
 use super::{Compensation, Governor, Limit, RunAction, Sequence, SetpointShape, SpeedFilter, SymmetricLimit};
-use crate::number::Number;
+use crate::number::{Number, Part};
 use crate::sample::Estimate;
 
 /// Gains and ramp of [`SpeedGovernor`].
@@ -55,21 +54,11 @@ pub struct SpeedGovernorConfig<N: Number, S, F, L, M, V> {
     pub filter: V,
 }
 
-/// The constants of a governor composed of these parts.
-pub type SpeedGovernorConfigOf<N, S = (), F = (), L = SymmetricLimit, M = (), V = ()> = SpeedGovernorConfig<
-    N,
-    <S as SetpointShape<N>>::Config,
-    <F as Compensation<N>>::Config,
-    <L as Limit<N>>::Config,
-    <M as Sequence<N>>::Config,
-    <V as SpeedFilter<N>>::Config,
->;
-
-/// State of the governor, of the number `N` and by its parts: `S` shapes the setpoint, `F` compensates, `L` limits the
-/// torque, `M` is the run sequence, `V` filters the speed.
+/// State of the governor, by its parts: `S` shapes the setpoint, `F` compensates, `L` limits the torque, `M` is the run
+/// sequence, `V` filters the speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct SpeedGovernor<N, S = (), F = (), L = SymmetricLimit, M = (), V = ()> {
+pub struct SpeedGovernor<S = (), F = (), L = SymmetricLimit, M = (), V = (), N = f32> {
     integral: N,
     ramped: N,
     setpoint: N,
@@ -80,7 +69,18 @@ pub struct SpeedGovernor<N, S = (), F = (), L = SymmetricLimit, M = (), V = ()> 
     filter: V,
 }
 
-impl<N, S, F, L, M, V> SpeedGovernor<N, S, F, L, M, V>
+impl<N, S, F, L, M, V> Part<N> for SpeedGovernor<S, F, L, M, V>
+where
+    S: Part<N>,
+    F: Part<N>,
+    L: Part<N>,
+    M: Part<N>,
+    V: Part<N>,
+{
+    type State = SpeedGovernor<S::State, F::State, L::State, M::State, V::State, N>;
+}
+
+impl<N, S, F, L, M, V> SpeedGovernor<S, F, L, M, V, N>
 where
     N: Number,
     S: SetpointShape<N>,
@@ -114,8 +114,8 @@ where
     /// torques, up to twice the limit; the ramped setpoint that of the droops, and returns by its ramp.
     pub fn switch(
         &mut self,
-        from: &SpeedGovernorConfigOf<N, S, F, L, M, V>,
-        to: &SpeedGovernorConfigOf<N, S, F, L, M, V>,
+        from: &<Self as Governor<N>>::Config,
+        to: &<Self as Governor<N>>::Config,
         estimate: &Estimate<N>,
     ) {
         let estimate = &self.filter.filtered(estimate);
@@ -124,7 +124,7 @@ where
         // The proportional part of saturation counts as four limits, which every number holds.
         let most = self.limit.most(&to.limit, estimate);
         let twice = most + most;
-        let wanted = |c: &SpeedGovernorConfigOf<N, S, F, L, M, V>| {
+        let wanted = |c: &<Self as Governor<N>>::Config| {
             self.standing(c, estimate) + error.gained::<4>(c.gains.proportional).limited(twice + twice)
         };
         self.integral = (self.integral + (wanted(from) - wanted(to)).limited(twice)).limited(twice);
@@ -133,20 +133,20 @@ where
 
     /// The setpoint after the droop.
     #[inline(always)]
-    fn target(&self, config: &SpeedGovernorConfigOf<N, S, F, L, M, V>, estimate: &Estimate<N>) -> N {
+    fn target(&self, config: &<Self as Governor<N>>::Config, estimate: &Estimate<N>) -> N {
         let standing = self.compensation.steady(&config.compensation, estimate, self.integral);
         self.shape.lower(&config.shape, self.ramped, standing)
     }
 
     /// The integral with the compensation.
     #[inline(always)]
-    fn standing(&self, config: &SpeedGovernorConfigOf<N, S, F, L, M, V>, estimate: &Estimate<N>) -> N {
+    fn standing(&self, config: &<Self as Governor<N>>::Config, estimate: &Estimate<N>) -> N {
         let steady = self.compensation.steady(&config.compensation, estimate, self.integral);
         self.compensation.transient(&config.compensation, estimate, steady).saturated()
     }
 
     /// Starts from the present speed with the permitted torque nearest to this one, steady (bumpless transfer).
-    fn begin(&mut self, config: &SpeedGovernorConfigOf<N, S, F, L, M, V>, estimate: &Estimate<N>, torque: N) -> N {
+    fn begin(&mut self, config: &<Self as Governor<N>>::Config, estimate: &Estimate<N>, torque: N) -> N {
         let torque = self.limit.start(&config.limit, estimate, torque);
         let speed = estimate.motor_speed;
         let lowered = self.shape.lower(&config.shape, speed, torque);
@@ -157,7 +157,7 @@ where
     }
 }
 
-impl<N, S, F, L, M, V> Governor<N> for SpeedGovernor<N, S, F, L, M, V>
+impl<N, S, F, L, M, V> Governor<N> for SpeedGovernor<S, F, L, M, V, N>
 where
     N: Number,
     S: SetpointShape<N>,
@@ -166,7 +166,7 @@ where
     M: Sequence<N>,
     V: SpeedFilter<N>,
 {
-    type Config = SpeedGovernorConfigOf<N, S, F, L, M, V>;
+    type Config = SpeedGovernorConfig<N, S::Config, F::Config, L::Config, M::Config, V::Config>;
 
     const COMMANDS: bool = true;
 

@@ -11,7 +11,7 @@
 //! step a tick. Filters of the ramped setpoint and of the twist rate are optional: [`LoopFilter`].
 
 use super::{Governor, LoopFilter};
-use crate::number::Number;
+use crate::number::{Number, Part};
 use crate::sample::Estimate;
 
 /// Constants of [`SpeedLoop`].
@@ -44,21 +44,25 @@ impl<N: Number> SpeedLoopConfig<N> {
 /// State of the speed loop.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct SpeedLoop<N, F = ()> {
+pub struct SpeedLoop<F = (), N = f32> {
     integral: N,
     ramped: N,
     setpoint: N,
     filter: F,
 }
 
-impl<N: Copy, F> SpeedLoop<N, F> {
+impl<N, F: Part<N>> Part<N> for SpeedLoop<F> {
+    type State = SpeedLoop<F::State, N>;
+}
+
+impl<N: Copy, F> SpeedLoop<F, N> {
     /// The ramped setpoint (rad/s).
     pub fn ramped_setpoint(&self) -> N {
         self.ramped
     }
 }
 
-impl<N: Number, F: LoopFilter<N>> Governor<N> for SpeedLoop<N, F> {
+impl<N: Number, F: LoopFilter<N>> Governor<N> for SpeedLoop<F, N> {
     type Config = SpeedLoopConfig<N, F::Config>;
 
     const COMMANDS: bool = true;

@@ -19,7 +19,7 @@ use super::Finding;
 use crate::angle::Synchronous;
 use crate::design::{PlacedObserver, TwoMassDesign};
 use crate::math::{atan2, hypot, sin_cos};
-use crate::number::Fixed;
+use crate::number::{Fixed, Part};
 use crate::observer::{Observer, Prediction};
 use crate::sample::Estimate;
 
@@ -149,7 +149,7 @@ impl Correction for Fixed {
 /// Its constants are those of the observer in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct EccentricityObserver<N: Correction, O> {
+pub struct EccentricityObserver<O, N: Correction = f32> {
     observer: O,
     /// The last accepted angle, as measured.
     measured: u32,
@@ -158,6 +158,10 @@ pub struct EccentricityObserver<N: Correction, O> {
     sums: [N::Sum; 2],
     ticks: u32,
     learner: Learner,
+}
+
+impl<N: Correction, O: Part<N>> Part<N> for EccentricityObserver<O> {
+    type State = EccentricityObserver<O::State, N>;
 }
 
 /// State between the ticks.
@@ -176,7 +180,7 @@ fn direction<N: Correction>(measured: u32) -> [N::Part; 2] {
     N::direction(measured >> 6)
 }
 
-impl<N: Correction, O> EccentricityObserver<N, O> {
+impl<N: Correction, O> EccentricityObserver<O, N> {
     /// The learnt eccentricity: coefficients of cosine and sine of the measured angle (2^-32 turn).
     pub fn eccentricity(&self) -> [i32; 2] {
         self.eccentricity
@@ -252,7 +256,7 @@ fn bounded((a, b): Complex, bound: f64) -> ([i32; 2], bool) {
     ([(a * share) as i32, (b * share) as i32], size > bound)
 }
 
-impl<N: Correction, O: Observer<N>> Observer<N> for EccentricityObserver<N, O> {
+impl<N: Correction, O: Observer<N>> Observer<N> for EccentricityObserver<O, N> {
     type Config = O::Config;
     /// The observer's, the direction of the measured angle, and the corrected angle.
     type States = (O::States, ([N::Part; 2], u32));

@@ -32,7 +32,7 @@
 //! for part of a period of the resonance after it. Which set a tick takes is counted, not computed.
 
 use super::{AngleTracker, Observer, Prediction};
-use crate::number::{Fixed, Number};
+use crate::number::{Fixed, Number, Part};
 use crate::sample::Estimate;
 
 /// The law of motion in contact with a flank.
@@ -105,7 +105,7 @@ pub struct BacklashConfig<N: Number> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(C)]
-pub struct BacklashObserver<N> {
+pub struct BacklashObserver<N = f32> {
     twist: N,
     twist_rate: N,
     load_torque: N,
@@ -113,6 +113,10 @@ pub struct BacklashObserver<N> {
     angle: AngleTracker<N>,
     /// Ticks for which the searching gains still stand.
     searching: u32,
+}
+
+impl<N> Part<N> for BacklashObserver {
+    type State = BacklashObserver<N>;
 }
 
 /// Operations on a gap, beside those of [`Number`].

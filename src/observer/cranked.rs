@@ -20,7 +20,7 @@
 
 use super::{Observer, Prediction, RigidConfig, RigidObserver};
 use crate::angle::{RotorAngle, RotorAngleConfig};
-use crate::number::Number;
+use crate::number::{Number, Part};
 use crate::sample::Estimate;
 
 /// Places of the table on a turn of the crank. A second harmonic of the inertia is off by 0.5 % of its amplitude at
@@ -56,11 +56,15 @@ pub struct CrankConfig<N: Number> {
 /// State of the observer of a cranked machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct CrankObserver<N> {
+pub struct CrankObserver<N = f32> {
     rigid: RigidObserver<N>,
     /// Motor torque less the torque that the rigid observer was given.
     inertia_torque: N,
     turning: RotorAngle,
+}
+
+impl<N> Part<N> for CrankObserver {
+    type State = CrankObserver<N>;
 }
 
 impl<N: Number> CrankObserver<N> {

@@ -19,7 +19,7 @@
 //! Beyond the deadband it is kept, so that a gear that loses less than lambda, and creeps, is followed.
 
 use super::{Observer, Prediction};
-use crate::number::{Fixed, Number};
+use crate::number::{Fixed, Number, Part};
 use crate::sample::Estimate;
 
 /// Constants of [`GearedObserver`].
@@ -41,6 +41,10 @@ pub struct GearedConfig<N: Stiction, C> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct GearedObserver<O> {
     observer: O,
+}
+
+impl<N, O: Part<N>> Part<N> for GearedObserver<O> {
+    type State = GearedObserver<O::State>;
 }
 
 /// Stiction of a gear at rest, beside the operations of [`Number`].

@@ -12,6 +12,7 @@
 //! through zero at standstill, where the motor's angle contains nothing of it: the load torque is then the shaft torque.
 
 use super::{Observer, Prediction, Stiction};
+use crate::number::Part;
 use crate::sample::Estimate;
 
 /// Constants of [`LoadGearObserver`].
@@ -33,6 +34,10 @@ pub struct LoadGearConfig<N: Stiction, C> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadGearObserver<O> {
     observer: O,
+}
+
+impl<N, O: Part<N>> Part<N> for LoadGearObserver<O> {
+    type State = LoadGearObserver<O::State>;
 }
 
 impl<N: Stiction, O: Observer<N>> Observer<N> for LoadGearObserver<O> {

@@ -7,7 +7,7 @@
 //! The shaft torque is then the load torque plus the acceleration torque of the load's share of the inertia.
 
 use super::{AngleTracker, Observer, Prediction};
-use crate::number::Number;
+use crate::number::{Number, Part};
 use crate::sample::Estimate;
 
 /// Constants of [`RigidObserver`]. Made by [`crate::settings`] from a design; the fields are in SI units for floats.
@@ -32,11 +32,15 @@ pub struct RigidConfig<N: Number> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(C)]
-pub struct RigidObserver<N> {
+pub struct RigidObserver<N = f32> {
     speed: N,
     load_torque: N,
     accelerating: N,
     angle: AngleTracker<N>,
+}
+
+impl<N> Part<N> for RigidObserver {
+    type State = RigidObserver<N>;
 }
 
 impl<N: Number> Observer<N> for RigidObserver<N> {

@@ -13,7 +13,7 @@
 //! exact one.
 
 use super::{AngleTracker, Observer, Prediction};
-use crate::number::Number;
+use crate::number::{Number, Part};
 use crate::sample::Estimate;
 
 /// Constants of [`SemiImplicitObserver`]. Made by [`crate::settings`] from a design; the fields are in SI units for
@@ -41,12 +41,16 @@ pub struct SemiImplicitConfig<N: Number> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(C)]
-pub struct SemiImplicitObserver<N> {
+pub struct SemiImplicitObserver<N = f32> {
     shaft_torque: N,
     load_speed: N,
     load_torque: N,
     motor_speed: N,
     angle: AngleTracker<N>,
+}
+
+impl<N> Part<N> for SemiImplicitObserver {
+    type State = SemiImplicitObserver<N>;
 }
 
 impl<N: Number> Observer<N> for SemiImplicitObserver<N> {

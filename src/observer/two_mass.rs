@@ -16,7 +16,7 @@
 //! stiffness. The motor turns by the mean speed's trapezium plus its share of the twist's increment, again exactly.
 
 use super::{AngleTracker, Observer, Prediction};
-use crate::number::Number;
+use crate::number::{Number, Part};
 use crate::sample::Estimate;
 
 /// Constants of [`TwoMassObserver`]. Made by [`crate::settings`] from a design; the fields are in SI units for floats.
@@ -51,12 +51,16 @@ pub struct TwoMassConfig<N: Number> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(C)]
-pub struct TwoMassObserver<N> {
+pub struct TwoMassObserver<N = f32> {
     twist: N,
     twist_rate: N,
     load_torque: N,
     speed: N,
     angle: AngleTracker<N>,
+}
+
+impl<N> Part<N> for TwoMassObserver {
+    type State = TwoMassObserver<N>;
 }
 
 impl<N: Number> Observer<N> for TwoMassObserver<N> {

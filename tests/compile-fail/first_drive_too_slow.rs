@@ -9,7 +9,7 @@ impl Machine for Spindle {
     const RATE_HZ: u32 = 1_000;
 }
 
-type SpindleDrive = Drive<f32, TwoMassObserver<f32>, (), SpeedLoop<f32>>;
+type SpindleDrive = Drive<f32, TwoMassObserver, SpeedLoop>;
 static CONFIG: ConfigOf<SpindleDrive> = SpindleDrive::configure::<Spindle>();
 
 fn main() {

@@ -11,7 +11,7 @@ impl Machine for Mill {
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.4, damping: 1.0, shaft_damping: 0.9 };
 }
 
-type MillDrive = Drive<f32, TwoMassObserver<f32>, (), SpeedLoop<f32>>;
+type MillDrive = Drive<f32, TwoMassObserver, SpeedLoop>;
 static CONFIG: ConfigOf<MillDrive> = MillDrive::configure::<Mill>();
 
 fn main() {

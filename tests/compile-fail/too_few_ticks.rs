@@ -11,7 +11,7 @@ impl Machine for Fan {
 }
 
 // 84 ticks on a turn
-type FanDrive = Drive<f32, TwoMassObserver<f32>, Extremes<f32>, SpeedLoop<f32>>;
+type FanDrive = Drive<f32, TwoMassObserver, SpeedLoop, Extremes>;
 static CONFIG: ConfigOf<FanDrive> = FanDrive::configure::<Fan>();
 
 fn main() {

@@ -8,12 +8,12 @@ use driveline::design::{Disturbance, Encoder, LoadFeedForward, Rate, SpeedLoopTu
 use driveline::drive::{Composition, Config, ConfigOf, Drive, Limits};
 use driveline::fault::Faults;
 use driveline::governor::{
-    ActiveDamping, ActiveDampingConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Governor, Slew,
-    SlewConfig, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, SymmetricLimit, SymmetricLimitConfig,
+    ActiveDamping, ActiveDampingConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Slew, SlewConfig,
+    SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, SymmetricLimit, SymmetricLimitConfig,
 };
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::{Fixed, Number};
-use driveline::observer::{Observer, TwoMassConfig, TwoMassObserver};
+use driveline::observer::{TwoMassConfig, TwoMassObserver};
 use driveline::sample::{Command, Sample};
 use driveline::settings::{Bases, Screening, SpeedLoopSettings};
 
@@ -161,10 +161,9 @@ impl Scale for Fixed {
     }
 }
 
-type Plain<N> = Drive<N, TwoMassObserver<N>, (), SpeedLoop<N>>;
-type Composed<N> =
-    Drive<N, TwoMassObserver<N>, (), SpeedGovernor<N, Droop, (FeedForward, ActiveDamping), Slew<N, SymmetricLimit>>>;
-type Slewed<N> = Drive<N, TwoMassObserver<N>, (), SpeedGovernor<N, (), (), Slew<N, SymmetricLimit>>>;
+type Plain<N> = Drive<N, TwoMassObserver, SpeedLoop>;
+type Composed<N> = Drive<N, TwoMassObserver, SpeedGovernor<Droop, (FeedForward, ActiveDamping), Slew<SymmetricLimit>>>;
+type Slewed<N> = Drive<N, TwoMassObserver, SpeedGovernor<(), (), Slew<SymmetricLimit>>>;
 
 /// A drive with what the test does to it.
 trait Tried {
@@ -179,12 +178,7 @@ trait Tried {
 /// A drive, constants to switch between, and bases.
 struct Held<D: Composition>(D, [ConfigOf<D>; 2], Bases);
 
-impl<N, O, G> Tried for Held<Drive<N, O, (), G>>
-where
-    N: Scale,
-    O: Observer<N>,
-    G: Governor<N>,
-{
+impl<N: Scale, D: Composition<Number = N>> Tried for Held<D> {
     fn tick(&mut self, [torque, setpoint]: [f64; 2], angle: u32) -> (f64, Faults) {
         let Bases { torque: base, speed, .. } = self.2;
         let sample = Sample { angle, torque: N::of(torque, base), setpoint: N::of(setpoint, speed) };

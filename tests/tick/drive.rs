@@ -5,6 +5,7 @@ use driveline::drive::{Config, Drive, Limits};
 use driveline::fault::Faults;
 use driveline::fluctuation::Fluctuation;
 use driveline::governor::{SpeedLoop, SpeedLoopConfig};
+use driveline::number::Part;
 use driveline::observer::{Observer, RigidObserver};
 use driveline::sample::{Estimate, Sample};
 
@@ -18,6 +19,10 @@ const LIMITS: Limits<f64> =
 struct Told {
     measured: u32,
     disturbed: u32,
+}
+
+impl Part<f64> for Told {
+    type State = Self;
 }
 
 impl Fluctuation<f64> for Told {
@@ -45,7 +50,7 @@ impl Balancer<f64> for Told {
     }
 }
 
-type Watched = Drive<f64, RigidObserver<f64>, Told, (), Told>;
+type Watched = Drive<f64, RigidObserver, (), Told, Told>;
 
 const WATCHED: driveline::drive::ConfigOf<Watched> =
     Config { limits: LIMITS, observer: UNIT, fluctuation: (), governor: (), balancer: () };
@@ -210,7 +215,7 @@ fn a_torque_that_cannot_be_is_told_of_while_the_angle_is_lost() {
     assert_eq!(drive.coast(&WATCHED, -10.1, 0.0).faults, lost | Faults::TORQUE);
 }
 
-type Governed = Drive<f64, RigidObserver<f64>, (), SpeedLoop<f64>>;
+type Governed = Drive<f64, RigidObserver, SpeedLoop>;
 
 const GOVERNED: driveline::drive::ConfigOf<Governed> = Config {
     limits: LIMITS,

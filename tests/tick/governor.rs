@@ -8,7 +8,7 @@ use driveline::governor::{
     SetpointShape, Slew, SlewConfig, SpeedFilter, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig,
     SpeedRange, SymmetricLimit, SymmetricLimitConfig, TransportDelay, TransportDelayConfig, Trip,
 };
-use driveline::number::{Coefficient, Fixed, Weight};
+use driveline::number::{Coefficient, Fixed, StateOf, Weight};
 use driveline::sample::Estimate;
 
 const GAINS: Gains<f64> = Gains { proportional: 1.0, reset: 0.0, ramp: 10.0 };
@@ -29,7 +29,7 @@ fn a_start_beyond_the_torque_limit_starts_at_the_limit() {
         filter: (),
     };
     for sign in [1.0, -1.0] {
-        let mut governor = SpeedLoop::<f64>::default();
+        let mut governor = SpeedLoop::<(), f64>::default();
         governor.start(&config, &at(0.0), sign * 1000.0);
         assert_eq!(governor.command(&config, &at(sign * 10.0)), sign * 40.0);
     }
@@ -46,7 +46,7 @@ fn the_speed_loop_is_the_law_on_paper() {
         ramp: 4.0,
         filter: (),
     };
-    let mut governor = SpeedLoop::<f64>::default();
+    let mut governor = SpeedLoop::<(), f64>::default();
     let turning = Estimate { load_speed: 9.0, ..at(11.0) };
     governor.start(&config, &at(10.0), 6.0);
     governor.set_setpoint(12.0);
@@ -61,7 +61,7 @@ fn the_speed_loop_is_the_law_on_paper() {
 /// The load's part and the droop are there from the first tick, and the torque is still the one that there was.
 #[test]
 fn a_start_with_droop_and_feed_forward_is_bumpless() {
-    type Drooped = SpeedGovernor<f64, Droop, FeedForward>;
+    type Drooped = StateOf<SpeedGovernor<Droop, FeedForward>, f64>;
     let config = SpeedGovernorConfig {
         gains: Gains { ramp: 0.0, ..GAINS },
         shape: DroopConfig { droop: 0.25 },
@@ -80,7 +80,7 @@ fn a_start_with_droop_and_feed_forward_is_bumpless() {
     assert_eq!(governor.command(&config, &Estimate { load_torque: 8.0, ..at(48.0) }), 22.0);
 }
 
-type Slewed = SpeedGovernor<f64, (), (), Slew<f64, SymmetricLimit>>;
+type Slewed = StateOf<SpeedGovernor<(), (), Slew<SymmetricLimit>>, f64>;
 
 #[test]
 fn the_slew_starts_from_the_torque_that_there_is() {
@@ -109,7 +109,7 @@ fn the_reach_of_a_take_up_rises_on_the_driven_flank_alone() {
         limit: SymmetricLimitConfig { torque: 100.0 },
     };
     for side in [1.0, -1.0] {
-        let mut limit = BacklashTakeUp::<f64, SymmetricLimit>::default();
+        let mut limit = BacklashTakeUp::<SymmetricLimit, f64>::default();
         limit.start(&config, &at(50.0), side * 4.0);
         let mut allowed = |shaft_torque: f64, wanted: f64| {
             // a twist rate of 4
@@ -135,7 +135,7 @@ fn a_barred_range_is_passed_quickly_and_no_setpoint_stands_in_it() {
     assert_eq!([goal(55.0, 30.0), goal(45.0, 70.0)], [(40.0, 1.0), (60.0, 1.0)]);
 }
 
-type Sequenced = SpeedGovernor<f64, (), (), SymmetricLimit, Sequencer>;
+type Sequenced = StateOf<SpeedGovernor<(), (), SymmetricLimit, Sequencer>, f64>;
 
 const SEQUENCE: SequencerConfig<f64> = SequencerConfig {
     running: SpeedRange { middle: 100.0, half: 20.0 },
@@ -147,15 +147,14 @@ const SEQUENCE: SequencerConfig<f64> = SequencerConfig {
     start: 1000,
 };
 
-const SEQUENCED: driveline::governor::SpeedGovernorConfigOf<f64, (), (), SymmetricLimit, Sequencer> =
-    SpeedGovernorConfig {
-        gains: GAINS,
-        shape: (),
-        compensation: (),
-        limit: SymmetricLimitConfig { torque: 100.0 },
-        sequence: SEQUENCE,
-        filter: (),
-    };
+const SEQUENCED: <Sequenced as Governor<f64>>::Config = SpeedGovernorConfig {
+    gains: GAINS,
+    shape: (),
+    compensation: (),
+    limit: SymmetricLimitConfig { torque: 100.0 },
+    sequence: SEQUENCE,
+    filter: (),
+};
 
 /// Backwards at the very speed that it ran forwards with: beyond what is allowed, and tripped after the delay.
 #[test]
@@ -197,7 +196,7 @@ fn braking_goes_to_standstill_and_forgets_no_setpoint() {
 fn with_a_lost_angle_the_setpoint_is_zero_until_there_is_another() {
     let limit = SymmetricLimitConfig { torque: 100.0 };
     let config = SpeedGovernorConfig { gains: GAINS, shape: (), compensation: (), limit, sequence: (), filter: () };
-    let mut governor = SpeedGovernor::<f64>::default();
+    let mut governor = <StateOf<SpeedGovernor, f64>>::default();
     governor.start(&config, &at(50.0), 0.0);
     governor.set_setpoint(100.0);
     governor.command(&config, &at(50.0));
@@ -218,7 +217,7 @@ fn a_moving_average_does_not_drift() {
         load_speed: Fixed::from_bits(bits),
         load_torque: Fixed::from_bits(-bits),
     };
-    let mut average = MovingAverage::<Fixed, TICKS>::default();
+    let mut average = MovingAverage::<TICKS, Fixed>::default();
     // each term is cut to 6; a start at 100 is 4 above their sum, until the sum is renewed
     average.start(&config, &fixed(100));
     let speeds: Vec<i32> = (0..2 * TICKS).map(|_| average.filter(&config, &fixed(100)).motor_speed.to_bits()).collect();
@@ -257,7 +256,7 @@ fn a_large_deviation_of_a_motor_is_damped_towards_the_mean() {
 #[test]
 fn a_moving_average_takes_a_step_in_its_ticks() {
     let config = MovingAverageConfig::<f64, 4> { share: 0.25 };
-    let mut average = MovingAverage::<f64, 4>::default();
+    let mut average = MovingAverage::<4, f64>::default();
     average.start(&config, &Estimate { load_torque: 2.0, ..at(1.0) });
     let seen = [(); 5].map(|()| {
         let estimate = average.filter(&config, &Estimate { load_torque: -2.0, ..at(9.0) });
@@ -269,7 +268,7 @@ fn a_moving_average_takes_a_step_in_its_ticks() {
 /// A shaper hands on what its governor alone knows: the speed without its ripple, and a trip.
 #[test]
 fn a_shaper_hands_on_the_steady_speed_and_a_trip() {
-    type Inner = SpeedGovernor<f64, (), (), SymmetricLimit, Sequencer, CycleAverage<f64>>;
+    type Inner = StateOf<SpeedGovernor<(), (), SymmetricLimit, Sequencer, CycleAverage>, f64>;
     let governor = SpeedGovernorConfig {
         gains: GAINS,
         shape: (),
@@ -279,7 +278,7 @@ fn a_shaper_hands_on_the_steady_speed_and_a_trip() {
         filter: (),
     };
     let config = InputShaperConfig { ramp: 1.0, slot: 10, share: 0.5, governor };
-    let mut shaper = InputShaper::<f64, Inner, 2>::default();
+    let mut shaper = InputShaper::<Inner, 2, 3, f64>::default();
     assert_eq!(shaper.start(&config, &at(100.0), 0.0), 0.0);
     shaper.set_setpoint(100.0);
     shaper.set_steady_speed(Some(93.0));
@@ -381,7 +380,7 @@ fn shapes_follow_one_another() {
 /// without a state of its own adds none, whether alone or beside another.
 #[test]
 fn a_part_that_is_left_out_has_no_state() {
-    type With<S = (), F = (), L = SymmetricLimit, M = (), V = ()> = SpeedGovernor<f32, S, F, L, M, V>;
+    type With<S = (), F = (), L = SymmetricLimit, M = (), V = ()> = SpeedGovernor<S, F, L, M, V>;
     const PLAIN: usize = 3 * 4;
     for (part, bytes, state) in [
         ("none", size_of::<With>(), 0),
@@ -390,13 +389,13 @@ fn a_part_that_is_left_out_has_no_state() {
         ("damping and acceleration", size_of::<With<(), (ActiveDamping, AccelerationFeedback)>>(), 0),
         ("curve", size_of::<With<(), (), Curve<4>>>(), 0),
         // the last torque
-        ("slew", size_of::<With<(), (), Slew<f32, SymmetricLimit>>>(), 4),
+        ("slew", size_of::<With<(), (), Slew<SymmetricLimit>>>(), 4),
         // the reach
-        ("take-up", size_of::<With<(), (), BacklashTakeUp<f32, SymmetricLimit>>>(), 4),
+        ("take-up", size_of::<With<(), (), BacklashTakeUp<SymmetricLimit>>>(), 4),
         // state and cause, two counters
         ("sequencer", size_of::<With<(), (), SymmetricLimit, Sequencer>>(), 4 + 2 * 4),
         // a ring of speeds and torques, two sums of them, a place
-        ("moving average", size_of::<With<(), (), SymmetricLimit, (), MovingAverage<f32, 8>>>(), (2 * 8 + 4 + 1) * 4),
+        ("moving average", size_of::<With<(), (), SymmetricLimit, (), MovingAverage<8>>>(), (2 * 8 + 4 + 1) * 4),
         // a speed or none
         ("cycle average", size_of::<With<(), (), SymmetricLimit, (), CycleAverage<f32>>>(), 2 * 4),
     ] {

@@ -5,6 +5,7 @@ use driveline::governor::{
     CycleAverage, DampingLag, DampingLagConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Governor,
     SetpointLag, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, SymmetricLimit, SymmetricLimitConfig,
 };
+use driveline::number::StateOf;
 use driveline::observer::{GearedConfig, GearedObserver, Observer, TwoMassConfig, TwoMassObserver};
 use driveline::sample::{Estimate, Sample};
 
@@ -45,7 +46,7 @@ fn a_switch_of_two_masses_leaves_speed_and_shaft_torque() {
 /// A lag that holds the setpoint 8 behind the ramp, and one of the damping that follows at once.
 #[test]
 fn a_switch_of_a_speed_loop_with_lags_is_bumpless() {
-    type Lagged = SpeedLoop<f64, (SetpointLag<f64>, DampingLag<f64>)>;
+    type Lagged = SpeedLoop<(SetpointLag<f64>, DampingLag<f64>), f64>;
     let config = |proportional, damping| SpeedLoopConfig {
         proportional,
         damping,
@@ -70,7 +71,7 @@ fn a_switch_of_a_speed_loop_with_lags_is_bumpless() {
 /// Without filters, through a drive; a lost angle then leaves neither torque nor setpoint.
 #[test]
 fn a_switch_of_a_drive_is_bumpless() {
-    type Plain = Drive<f64, TwoMassObserver<f64>, (), SpeedLoop<f64>>;
+    type Plain = Drive<f64, TwoMassObserver, SpeedLoop>;
     let config = |proportional, damping, share, stiffness| Config {
         limits: Limits { torque: 1e3, setpoint: 1e3, innovation: 1e3, frozen_turn: 1e3, max_coast: 3 },
         observer: two_mass(share, stiffness),
@@ -95,7 +96,7 @@ fn a_switch_of_a_drive_is_bumpless() {
 
 #[test]
 fn a_switch_of_gain_droop_and_feed_forward_is_bumpless() {
-    type Drooped = SpeedGovernor<f64, (Droop, ()), (FeedForward, ()), SymmetricLimit, (), CycleAverage<f64>>;
+    type Drooped = StateOf<SpeedGovernor<(Droop, ()), (FeedForward, ()), SymmetricLimit, (), CycleAverage>, f64>;
     let config = |proportional, droop, share| SpeedGovernorConfig {
         gains: Gains { proportional, reset: 0.0, ramp: 0.0 },
         shape: (DroopConfig { droop }, ()),

@@ -84,7 +84,7 @@ impl Motion {
         config: &WaveformConfig,
         torque: impl Fn(f64) -> f64,
     ) -> Option<Window<f64, BINS>> {
-        let mut waveform = Waveform::<f64, BINS>::default();
+        let mut waveform = Waveform::<BINS, f64>::default();
         let mut window = None;
         self.run(|phi, motor_speed| {
             let estimate = Estimate { motor_speed, ..Estimate::default() };
@@ -427,7 +427,7 @@ fn no_window_holds_a_disturbance() {
         });
         let config = motion.config();
         for disturbed in (first..1_520).step_by(3) {
-            let mut waveform = Waveform::<f64, BINS>::default();
+            let mut waveform = Waveform::<BINS, f64>::default();
             let (mut at, mut windows) = (0, 0);
             for tick in 0..3_600 {
                 if tick == disturbed && !back {
@@ -467,7 +467,7 @@ fn a_window_has_at_most_four_million_ticks() {
     // steady, in 2^-32 turn a tick
     let run = |step: f64, cycles: u32, ticks: u32, asked: u32| {
         let config = WaveformConfig::new::<BINS>(CycleConfig::new(Cycle::TURN, PERIOD, Bases::SI), cycles);
-        let mut waveform = Waveform::<f64, BINS>::default();
+        let mut waveform = Waveform::<BINS, f64>::default();
         let motor_speed = step / ANGLE / PERIOD;
         let mut found = Vec::new();
         for tick in 0..ticks {

@@ -33,7 +33,7 @@ impl Machine for Roll {
     const ENCODER: Encoder = Encoder::lines(2048);
     const RATE_HZ: u32 = 10_000;
 }
-type RollDrive = Drive<f32, TwoMassObserver<f32>, (), SpeedLoop<f32>>;
+type RollDrive = Drive<f32, TwoMassObserver, SpeedLoop>;
 static CONFIG: ConfigOf<RollDrive> = RollDrive::configure::<Roll>();
 
 /// Counts of the encoder on a turn: four edges of each line.

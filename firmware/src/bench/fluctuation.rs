@@ -31,9 +31,9 @@ pub fn all<B: Board, N: Ranked + Summed + 'static>(bench: &mut Bench<'_, B>, bas
     let cycle = CycleConfig::new(QUARTER, 1e-4, bases);
     let waveform = WaveformConfig::new::<BINS>(cycle, 6);
     part::<B, N, Extremes<N>>(bench, "fluctuation/extremes", cycle);
-    part::<B, N, Waveform<N, BINS>>(bench, "fluctuation/waveform", waveform);
-    part::<B, N, (Extremes<N>, Waveform<N, BINS>)>(bench, "fluctuation/both", (cycle, waveform));
-    part::<B, N, CycleMean<N, 4>>(bench, "fluctuation/cycle-mean", mean);
+    part::<B, N, Waveform<BINS, N>>(bench, "fluctuation/waveform", waveform);
+    part::<B, N, (Extremes<N>, Waveform<BINS, N>)>(bench, "fluctuation/both", (cycle, waveform));
+    part::<B, N, CycleMean<4, N>>(bench, "fluctuation/cycle-mean", mean);
 }
 
 fn part<B: Board, N: Number, F: Fluctuation<N>>(bench: &mut Bench<'_, B>, name: &str, config: F::Config) {

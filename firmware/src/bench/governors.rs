@@ -4,7 +4,7 @@ use driveline::governor::{
     ActiveDamping, Barred, Curve, Droop, FeedForward, Governor, MovingAverage, RunRequest, Sequencer, Slew,
     SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SymmetricLimit, TorqueRange,
 };
-use driveline::number::{Fixed, Number};
+use driveline::number::{Fixed, Number, StateOf};
 use driveline::sample::{Command, Estimate};
 
 use super::Bench;
@@ -46,13 +46,13 @@ macro_rules! governors {
                         SpeedGovernorConfig {
                             gains: GAINS, shape: $s, compensation: $f, limit: $l, sequence: $m, filter: ()
                         };
-                    let governor = SpeedGovernor::<N, $shape, $added, $limit, $modes>::default();
+                    let governor = <StateOf<SpeedGovernor<$shape, $added, $limit, $modes>, N>>::default();
                     bench.measure($name, (&config, governor), input::<N>, command);
                 };
             }
             use parts::$run as p;
             let hoist = &<Of<Hoist<10_000>, Reduced<N>> as Constants>::CONFIG.governor;
-            bench.measure("governor/speed-loop", (hoist, SpeedLoop::<_>::default()), input::<N>, command);
+            bench.measure("governor/speed-loop", (hoist, SpeedLoop::<(), _>::default()), input::<N>, command);
             one!("governor/core", (), (), SymmetricLimit, (), (), (), p::SYMMETRIC, ());
             one!("governor/between", (), (), TorqueRange, (), (), (), p::BETWEEN, ());
             one!("governor/droop", Droop, (), SymmetricLimit, (), p::DROOP, (), p::SYMMETRIC, ());
@@ -60,15 +60,15 @@ macro_rules! governors {
             one!("governor/feed-forward", (), FeedForward, SymmetricLimit, (), (), p::FORWARD, p::SYMMETRIC, ());
             one!("governor/damping", (), ActiveDamping, SymmetricLimit, (), (), p::DAMPING, p::SYMMETRIC, ());
             one!("governor/curve", (), (), Curve<4>, (), (), (), p::CURVE, ());
-            one!("governor/slew", (), (), Slew<N, SymmetricLimit>, (), (), (), p::SLEW, ());
+            one!("governor/slew", (), (), Slew<SymmetricLimit>, (), (), (), p::SLEW, ());
             let config =
                 SpeedGovernorConfig {
                     gains: GAINS, shape: (), compensation: (), limit: p::SYMMETRIC, sequence: (), filter: p::MEAN
                 };
-            type Average<N> = MovingAverage<N, { generator::FIRING }>;
-            let governor = SpeedGovernor::<N, (), (), SymmetricLimit, (), Average<N>>::default();
+            type Average = MovingAverage<{ generator::FIRING }>;
+            let governor = <StateOf<SpeedGovernor<(), (), SymmetricLimit, (), Average>, N>>::default();
             bench.measure("governor/mean", (&config, governor), input::<N>, command);
-            let mut modes = SpeedGovernor::<N, (), (), SymmetricLimit, Sequencer>::default();
+            let mut modes = <StateOf<SpeedGovernor<(), (), SymmetricLimit, Sequencer>, N>>::default();
             modes.sequence_mut().request(RunRequest::Start);
             let config = SpeedGovernorConfig {
                 gains: GAINS,
@@ -79,7 +79,7 @@ macro_rules! governors {
 filter: (),
             };
             bench.measure("governor/modes", (&config, modes), input::<N>, command);
-            let mut whole = generator::Governor::<N>::default();
+            let mut whole = <StateOf<generator::Governor, N>>::default();
             whole.sequence_mut().request(RunRequest::Start);
             let config = SpeedGovernorConfig {
                 gains: GAINS,

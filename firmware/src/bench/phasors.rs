@@ -30,7 +30,7 @@ pub fn fixed<B: Board>(bench: &mut Bench<'_, B>) {
     channels::<B, Fixed, 2>(bench, "phasor/2", &FIXED.1);
 }
 
-type State<N, const C: usize> = (&'static PhasorsConfig<N, C>, Phasors<N, C, 9>);
+type State<N, const C: usize> = (&'static PhasorsConfig<N, C>, Phasors<C, 9, N>);
 
 fn channels<B: Board, N: Synchronous + 'static, const C: usize>(
     bench: &mut Bench<'_, B>,

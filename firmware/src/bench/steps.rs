@@ -75,9 +75,9 @@ fn all<B, N, E, R, G>(bench: &mut Bench<'_, B>)
 where
     B: Board,
     N: Stiction + 'static,
-    E: GovernedVariant<Number = N, Observer = GearedObserver<TwoMassObserver<N>>>,
-    R: GovernedVariant<Number = N, Observer = GearedObserver<SemiImplicitObserver<N>>>,
-    G: GovernedVariant<Number = N, Observer = GearedObserver<RigidObserver<N>>>,
+    E: GovernedVariant<Number = N, Observer = GearedObserver<TwoMassObserver>>,
+    R: GovernedVariant<Number = N, Observer = GearedObserver<SemiImplicitObserver>>,
+    G: GovernedVariant<Number = N, Observer = GearedObserver<RigidObserver>>,
 {
     observer::<B, N, TwoMassObserver<N>>(bench, "step/exact", &E::CONFIG.observer.observer);
     observer::<B, N, SemiImplicitObserver<N>>(bench, "step/semi-implicit", &R::CONFIG.observer.observer);
@@ -119,20 +119,8 @@ fn step<N: Number, O: Observer<N>>(config: &O::Config, observer: &mut O, angle: 
     observer.step(config, angle, torque);
 }
 
-type Whole<V> = Drive<
-    <V as GovernedVariant>::Number,
-    <V as GovernedVariant>::Observer,
-    (),
-    SpeedLoop<<V as GovernedVariant>::Number>,
->;
-type Constants<V> = ConfigOf<
-    Drive<
-        <V as GovernedVariant>::Number,
-        <V as GovernedVariant>::Observer,
-        (),
-        SpeedLoop<<V as GovernedVariant>::Number>,
-    >,
->;
+type Whole<V> = Drive<<V as GovernedVariant>::Number, <V as GovernedVariant>::Observer, SpeedLoop>;
+type Constants<V> = ConfigOf<Whole<V>>;
 
 /// A drive beside the constants that it refers to.
 type Referring<'a, V> = (&'a Constants<V>, Whole<V>);

@@ -7,6 +7,7 @@ use driveline::configure::HasVibration;
 use driveline::drive::ConfigOf;
 use driveline::fluctuation::{Extremes, Fluctuation, Interleaved, Ranked, Summed};
 use driveline::governor::Governor;
+use driveline::number::Part;
 use driveline::observer::Observer;
 
 use super::fluctuation::{FluctuationPanel, TAKE, last_turn};
@@ -21,12 +22,12 @@ pub trait BetweenTicks<S> {
 }
 
 /// A scene that no tick interrupts.
-impl<M, N, O, F, G> BetweenTicks<OnAxis<M, N, O, F, G>> for OnAxis<M, N, O, F, G>
+impl<M, N, O, G, F> BetweenTicks<OnAxis<M, N, O, G, F>> for OnAxis<M, N, O, G, F>
 where
     N: SensorUnit,
-    O: Observer<N, Config: 'static>,
-    F: Fluctuation<N, Config: 'static>,
-    G: Governor<N, Config: 'static>,
+    O: Part<N, State: Observer<N, Config: 'static>>,
+    G: Part<N, State: Governor<N, Config: 'static>>,
+    F: Part<N, State: Fluctuation<N, Config: 'static>>,
 {
     fn between_ticks<T>(&mut self, action: impl FnOnce(&mut Self) -> T) -> T {
         action(self)
@@ -51,14 +52,14 @@ impl<M: HasVibration, A: Adviser> AxisPanel<M, A> {
     /// Answers a request.
     pub fn ask<N, O, G, const BINS: usize>(
         &mut self,
-        config: &ConfigOf<BalancedDrive<N, O, Interleaved<N, BINS>, G>>,
-        scene: &mut impl BetweenTicks<OnAxis<M, N, O, Interleaved<N, BINS>, G>>,
+        config: &ConfigOf<BalancedDrive<N, O, G, Interleaved<BINS>>>,
+        scene: &mut impl BetweenTicks<OnAxis<M, N, O, G, Interleaved<BINS>>>,
         [key, value]: [u32; 2],
     ) -> u32
     where
         N: SensorUnit + Summed + Ranked + 'static,
-        O: Observer<N, Config: 'static>,
-        G: Governor<N, Config: 'static>,
+        O: Part<N, State: Observer<N, Config: 'static>>,
+        G: Part<N, State: Governor<N, Config: 'static>>,
     {
         match (key, Key::of(key)) {
             (TAKE, _) => {
@@ -98,13 +99,13 @@ impl<M: HasVibration, A: Adviser> AxisPanel<M, A> {
     /// Mean speed (rad/s) and delta of motor and load in the last turn, where one was finished since the last call.
     pub fn new_turn<N, O, G, const BINS: usize>(
         &mut self,
-        config: &ConfigOf<BalancedDrive<N, O, Interleaved<N, BINS>, G>>,
-        scene: &mut impl BetweenTicks<OnAxis<M, N, O, Interleaved<N, BINS>, G>>,
+        config: &ConfigOf<BalancedDrive<N, O, G, Interleaved<BINS>>>,
+        scene: &mut impl BetweenTicks<OnAxis<M, N, O, G, Interleaved<BINS>>>,
     ) -> Option<[f32; 3]>
     where
         N: SensorUnit + Summed + Ranked + 'static,
-        O: Observer<N, Config: 'static>,
-        G: Governor<N, Config: 'static>,
+        O: Part<N, State: Observer<N, Config: 'static>>,
+        G: Part<N, State: Governor<N, Config: 'static>>,
     {
         let last = self.cycles;
         let extremes: Extremes<N> = scene.between_ticks(|scene| {

@@ -11,6 +11,7 @@ use driveline::configure::HasLife;
 use driveline::drive::{ConfigOf, Drive};
 use driveline::fatigue::{Classed, LifeRecord, Rainflow};
 use driveline::governor::Governor;
+use driveline::number::Part;
 use driveline::observer::Observer;
 use driveline::parameters::Store;
 use driveline::telemetry::{Channel, Kind};
@@ -100,20 +101,17 @@ impl<M: HasLife> LifePanel<M> {
     }
 }
 
-impl<M, N, O, G, B, const CLASSES: usize> Beside<Drive<N, O, Rainflow<N, CLASSES>, G, B>> for LifePanel<M>
+impl<M, N, O, G, B, const CLASSES: usize> Beside<Drive<N, O, G, Rainflow<CLASSES>, B>> for LifePanel<M>
 where
     M: HasLife,
     N: Classed,
-    O: Observer<N>,
-    G: Governor<N>,
-    B: Balancer<N>,
+    O: Part<N, State: Observer<N>>,
+    G: Part<N, State: Governor<N>>,
+    B: Part<N, State: Balancer<N>>,
 {
     const CHANNELS: &'static [Channel<'static>] = &CHANNELS;
 
-    fn start(
-        _: &mut Drive<N, O, Rainflow<N, CLASSES>, G, B>,
-        _: &ConfigOf<Drive<N, O, Rainflow<N, CLASSES>, G, B>>,
-    ) -> Self {
+    fn start(_: &mut Drive<N, O, G, Rainflow<CLASSES>, B>, _: &ConfigOf<Drive<N, O, G, Rainflow<CLASSES>, B>>) -> Self {
         LifePanel {
             life: LifeRecord::default(),
             resumed: false,
@@ -126,8 +124,8 @@ where
 
     fn panel(
         &mut self,
-        drive: &mut Drive<N, O, Rainflow<N, CLASSES>, G, B>,
-        config: &mut &'static ConfigOf<Drive<N, O, Rainflow<N, CLASSES>, G, B>>,
+        drive: &mut Drive<N, O, G, Rainflow<CLASSES>, B>,
+        config: &mut &'static ConfigOf<Drive<N, O, G, Rainflow<CLASSES>, B>>,
         [key, value]: [u32; 2],
     ) -> u32 {
         let (count, classes) = (drive.fluctuation_mut(), &config.fluctuation);

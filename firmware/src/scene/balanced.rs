@@ -8,7 +8,7 @@ use driveline::configure::HasVibration;
 use driveline::drive::{ConfigOf, Drive};
 use driveline::fluctuation::Fluctuation;
 use driveline::governor::{Governor, SpeedLoop};
-use driveline::number::Fixed;
+use driveline::number::{Fixed, Part};
 use driveline::observer::Observer;
 
 use crate::scene::composed::{Beside, Composed, OverWords};
@@ -22,10 +22,10 @@ pub const CHANNELS: usize = 2;
 pub const EDGES: usize = 9;
 
 /// The measurement of a balanced scene.
-pub type Measurement<N> = Phasors<N, CHANNELS, EDGES>;
+pub type Measurement<N = f32> = Phasors<CHANNELS, EDGES, N>;
 
 /// The drive of a balanced scene: a speed loop and no measurement of the fluctuation, unless it names others.
-pub type BalancedDrive<N, O, F = (), G = SpeedLoop<N>> = Drive<N, O, F, G, Measurement<N>>;
+pub type BalancedDrive<N, O, G = SpeedLoop, F = ()> = Drive<N, O, G, F, Measurement>;
 
 /// A scene whose rotor is balanced: the machine, the number, the observer, and what its panel does with readings.
 pub type Balanced<M, N, O, A> = Composed<BalancedDrive<N, O>, Panel<M, A>>;
@@ -69,24 +69,13 @@ pub trait Adviser {
 /// A tick with its vibration, and no panel.
 pub struct Sampled;
 
-impl<N, O, F, G> Beside<BalancedDrive<N, O, F, G>> for Sampled
-where
-    N: SensorUnit,
-    O: Observer<N>,
-    F: Fluctuation<N>,
-    G: Governor<N>,
-{
-    fn start(_: &mut BalancedDrive<N, O, F, G>, _: &ConfigOf<BalancedDrive<N, O, F, G>>) -> Self {
+impl<N: SensorUnit, D: OverWords<Number = N, Balancer = Measurement<N>>> Beside<D> for Sampled {
+    fn start(_: &mut D, _: &ConfigOf<D>) -> Self {
         Sampled
     }
 
     #[inline(always)]
-    fn tick(
-        &mut self,
-        drive: &mut BalancedDrive<N, O, F, G>,
-        config: &ConfigOf<BalancedDrive<N, O, F, G>>,
-        input: &Input,
-    ) -> Output {
+    fn tick(&mut self, drive: &mut D, config: &ConfigOf<D>, input: &Input) -> Output {
         let output = drive.advance(config, input);
         drive.vibration(config, &input.vibration.map(N::from_word));
         output
@@ -99,24 +88,24 @@ pub struct Panel<M, A> {
     machine: PhantomData<M>,
 }
 
-impl<M, N, O, F, G, A> Beside<BalancedDrive<N, O, F, G>> for Panel<M, A>
+impl<M, N, O, G, F, A> Beside<BalancedDrive<N, O, G, F>> for Panel<M, A>
 where
     M: HasVibration,
     N: SensorUnit,
-    O: Observer<N>,
-    F: Fluctuation<N>,
-    G: Governor<N>,
+    O: Part<N, State: Observer<N>>,
+    G: Part<N, State: Governor<N>>,
+    F: Part<N, State: Fluctuation<N>>,
     A: Adviser,
 {
-    fn start(_: &mut BalancedDrive<N, O, F, G>, _: &ConfigOf<BalancedDrive<N, O, F, G>>) -> Self {
+    fn start(_: &mut BalancedDrive<N, O, G, F>, _: &ConfigOf<BalancedDrive<N, O, G, F>>) -> Self {
         Panel { adviser: A::new(), machine: PhantomData }
     }
 
     #[inline(always)]
     fn tick(
         &mut self,
-        drive: &mut BalancedDrive<N, O, F, G>,
-        config: &ConfigOf<BalancedDrive<N, O, F, G>>,
+        drive: &mut BalancedDrive<N, O, G, F>,
+        config: &ConfigOf<BalancedDrive<N, O, G, F>>,
         input: &Input,
     ) -> Output {
         Sampled.tick(drive, config, input)
@@ -124,8 +113,8 @@ where
 
     fn panel(
         &mut self,
-        drive: &mut BalancedDrive<N, O, F, G>,
-        config: &mut &'static ConfigOf<BalancedDrive<N, O, F, G>>,
+        drive: &mut BalancedDrive<N, O, G, F>,
+        config: &mut &'static ConfigOf<BalancedDrive<N, O, G, F>>,
         asked: [u32; 2],
     ) -> u32 {
         let [key, value] = asked;

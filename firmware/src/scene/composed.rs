@@ -1,10 +1,8 @@
 //! A composed scene: the words of the link on one side, a drive of any parts on the other.
 
-use driveline::balancing::Balancer;
 use driveline::drive::{Composition, ConfigOf, Drive};
-use driveline::fluctuation::Fluctuation;
-use driveline::governor::{Governor, SpeedLoop};
-use driveline::number::Number;
+use driveline::governor::SpeedLoop;
+use driveline::number::{Number, Part};
 use driveline::observer::Observer;
 use driveline::sample::{Command, Estimate, Sample};
 use driveline::telemetry::Channel;
@@ -13,35 +11,20 @@ use super::{Constants, FromConfig, Input, Of, Output, Scene, Variant};
 
 /// A drive over words, whatever its parts.
 pub trait OverWords: Composition {
-    /// A drive at rest. An incremental encoder counts from where it was switched on.
-    fn at_rest(config: &ConfigOf<Self>) -> Self;
     /// One tick: at work where it is released, else held, with the setpoint's word as the torque.
-    fn advance(&mut self, config: &ConfigOf<Self>, input: &Input) -> Output;
-}
-
-impl<N, O, F, G, B> OverWords for Drive<N, O, F, G, B>
-where
-    N: Number,
-    O: Observer<N>,
-    F: Fluctuation<N>,
-    G: Governor<N>,
-    B: Balancer<N>,
-{
-    fn at_rest(config: &ConfigOf<Self>) -> Self {
-        Drive::new(config, 0)
-    }
-
     #[inline(always)]
     fn advance(&mut self, config: &ConfigOf<Self>, input: &Input) -> Output {
-        let setpoint = N::from_word(input.setpoint);
+        let sample: Sample<Self::Number> = sample(input);
         let command = if input.flags & Input::RELEASED != 0 {
-            self.tick(config, &Sample { angle: input.angle, torque: N::from_word(input.torque), setpoint })
+            self.tick(config, &sample)
         } else {
-            self.hold(config, input.angle, setpoint)
+            self.hold(config, sample.angle, sample.setpoint)
         };
         output(&command, &self.estimate(config))
     }
 }
+
+impl<D: Composition> OverWords for D {}
 
 /// What stands beside a drive: a panel between the ticks, or what comes before and after a tick. `()` for nothing.
 pub trait Beside<D: OverWords>: Sized {
@@ -99,10 +82,10 @@ pub struct Composed<D: Composition<Config: 'static>, B = ()> {
 }
 
 /// A drive with an observer and a speed loop.
-pub type Governed<N, O> = Composed<Drive<N, O, (), SpeedLoop<N>>>;
+pub type Governed<N, O> = Composed<Drive<N, O, SpeedLoop>>;
 
 /// A drive with an observer and any governor.
-pub type GovernedBy<N, O, G> = Composed<Drive<N, O, (), G>>;
+pub type GovernedBy<N, O, G> = Composed<Drive<N, O, G>>;
 
 impl<D: Composition<Config: 'static>, B> Composed<D, B> {
     /// The drive, to look at.
@@ -121,7 +104,8 @@ where
 
     fn from_config(config: &'static ConfigOf<D>) -> Self {
         let config = B::constants(config);
-        let mut drive = D::at_rest(config);
+        // an incremental encoder counts from where it was switched on
+        let mut drive = D::new(config, 0);
         let beside = B::start(&mut drive, config);
         Composed { config, drive, beside }
     }
@@ -157,28 +141,28 @@ pub trait GovernedVariant: 'static {
     /// Its number type.
     type Number: Number + 'static;
     /// Its observer.
-    type Observer: Observer<Self::Number>;
+    type Observer: Part<Self::Number, State: Observer<Self::Number>>;
     /// As [`Variant::NAME`].
     const NAME: &'static str;
     /// As [`Variant::RATE_HZ`].
     const RATE_HZ: u32;
     /// The drive's constants.
-    const CONFIG: &'static ConfigOf<Drive<Self::Number, Self::Observer, (), SpeedLoop<Self::Number>>>;
+    const CONFIG: &'static ConfigOf<Drive<Self::Number, Self::Observer, SpeedLoop>>;
 }
 
 impl<M, N, O> GovernedVariant for Of<M, Governed<N, O>>
 where
     M: 'static,
     N: Number + 'static,
-    O: Observer<N, Config: 'static> + 'static,
-    Governed<N, O>: FromConfig<Drive = Drive<N, O, (), SpeedLoop<N>>>,
+    O: Part<N, State: Observer<N, Config: 'static>> + 'static,
+    Governed<N, O>: FromConfig<Drive = Drive<N, O, SpeedLoop>>,
     Of<M, Governed<N, O>>: Constants<Scene = Governed<N, O>>,
 {
     type Number = N;
     type Observer = O;
     const NAME: &'static str = <Self as Variant>::NAME;
     const RATE_HZ: u32 = <Self as Variant>::RATE_HZ;
-    const CONFIG: &'static ConfigOf<Drive<N, O, (), SpeedLoop<N>>> = <Self as Constants>::CONFIG;
+    const CONFIG: &'static ConfigOf<Drive<N, O, SpeedLoop>> = <Self as Constants>::CONFIG;
 }
 
 /// Angle, torque and setpoint from words.

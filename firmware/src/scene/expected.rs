@@ -5,9 +5,9 @@
 use driveline::configure::Machine;
 use driveline::design::TwoMassDesign;
 use driveline::drive::Drive;
-use driveline::learning::{Correction, EccentricityObserver};
+use driveline::learning::EccentricityObserver;
 use driveline::machine;
-use driveline::number::Number;
+use driveline::number::Part;
 use driveline::observer::{
     BacklashObserver, CrankObserver, GearedObserver, RigidObserver, SemiImplicitObserver, TwoMassObserver,
 };
@@ -41,39 +41,45 @@ pub trait Expects<M> {
     }
 }
 
-impl<M, N, O: Expects<M>, F, G, B> Expects<M> for Drive<N, O, F, G, B> {
+impl<M, N, O, G, F, B> Expects<M> for Drive<N, O, G, F, B>
+where
+    O: Expects<M> + Part<N>,
+    G: Part<N>,
+    F: Part<N>,
+    B: Part<N>,
+{
     fn expected() -> Option<Expected> {
         O::expected()
     }
 }
 
-impl<M: Machine, N: Number> Expects<M> for TwoMassObserver<N> {
+impl<M: Machine> Expects<M> for TwoMassObserver {
     fn expected() -> Option<Expected> {
         Some(Expected::of_two_masses(&M::OBSERVER))
     }
 }
 
-impl<M: Machine, N: Number> Expects<M> for SemiImplicitObserver<N> {
+impl<M: Machine> Expects<M> for SemiImplicitObserver {
     fn expected() -> Option<Expected> {
         Some(Expected::of_two_masses(&M::OBSERVER))
     }
 }
 
 /// The shaft in contact: of the gap itself the design predicts nothing.
-impl<M: Machine, N: Number> Expects<M> for BacklashObserver<N> {
+impl<M: Machine> Expects<M> for BacklashObserver {
     fn expected() -> Option<Expected> {
         Some(Expected::of_two_masses(&M::BACKLASH_OBSERVER.contact))
     }
 }
 
-impl<M: Machine, N: Number> Expects<M> for RigidObserver<N> {
+impl<M: Machine> Expects<M> for RigidObserver {
     fn expected() -> Option<Expected> {
         let [_, load_speed, ..] = M::RIGID_OBSERVER.standard_deviation;
         Some(Expected { shaft_torque: None, load_speed, machine: None })
     }
 }
 
-impl<M, N: Number> Expects<M> for CrankObserver<N> {}
+impl<M> Expects<M> for CrankObserver {}
 
 impl<M, O: Expects<M>> Expects<M> for GearedObserver<O> {
     fn expected() -> Option<Expected> {
@@ -81,7 +87,7 @@ impl<M, O: Expects<M>> Expects<M> for GearedObserver<O> {
     }
 }
 
-impl<M, N: Correction, O: Expects<M>> Expects<M> for EccentricityObserver<N, O> {
+impl<M, O: Expects<M>> Expects<M> for EccentricityObserver<O> {
     fn expected() -> Option<Expected> {
         O::expected()
     }

@@ -16,11 +16,9 @@
 use core::marker::PhantomData;
 
 use driveline::configure::{Machine, Units};
-use driveline::drive::{ConfigOf, Drive};
-use driveline::governor::Governor;
+use driveline::drive::ConfigOf;
 use driveline::learning::{Finding, RunUp, RunUpConfig, TorqueCalibration, TorqueConstant, TorqueConstantConfig};
 use driveline::number::{Magnitude, Number};
-use driveline::observer::Observer;
 use driveline::sample::{Estimate, Sample};
 
 use super::composed::{Beside, OverWords, output, sample};
@@ -182,14 +180,13 @@ impl<N: Units<Coefficient: Magnitude>, M: NoLoadRun> NoLoadLearner<N, M> {
     }
 }
 
-impl<N, M, O, G> Beside<Drive<N, O, (), G>> for NoLoadLearner<N, M>
+impl<N, M, D> Beside<D> for NoLoadLearner<N, M>
 where
     N: Units<Coefficient: Magnitude>,
     M: NoLoadRun,
-    O: Observer<N>,
-    G: Governor<N>,
+    D: OverWords<Number = N>,
 {
-    fn start(_: &mut Drive<N, O, (), G>, _: &ConfigOf<Drive<N, O, (), G>>) -> Self {
+    fn start(_: &mut D, _: &ConfigOf<D>) -> Self {
         NoLoadLearner {
             torque: TorqueConstant::new(const { &Self::TORQUE }, 1.0, 0.0),
             run_up: RunUp::new(const { &Self::RUN_UP }, M::INERTIA as f32),
@@ -210,7 +207,7 @@ where
     }
 
     #[inline(always)]
-    fn tick(&mut self, drive: &mut Drive<N, O, (), G>, config: &ConfigOf<Drive<N, O, (), G>>, input: &Input) -> Output {
+    fn tick(&mut self, drive: &mut D, config: &ConfigOf<D>, input: &Input) -> Output {
         if input.flags & Input::RELEASED == 0 {
             self.held = true;
             return drive.advance(config, input);
@@ -229,12 +226,7 @@ where
     }
 
     #[inline]
-    fn panel(
-        &mut self,
-        drive: &mut Drive<N, O, (), G>,
-        config: &mut &'static ConfigOf<Drive<N, O, (), G>>,
-        [key, value]: [u32; 2],
-    ) -> u32 {
+    fn panel(&mut self, drive: &mut D, config: &mut &'static ConfigOf<D>, [key, value]: [u32; 2]) -> u32 {
         self.ticks = self.ticks.wrapping_add(1);
         if self.behind != Behind::Unknown {
             self.sum += self.reported.to_torque::<M>();

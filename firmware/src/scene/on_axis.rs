@@ -16,10 +16,10 @@ use driveline::drive::ConfigOf;
 use driveline::fault::Faults;
 use driveline::fluctuation::Fluctuation;
 use driveline::governor::Governor;
-use driveline::number::Number;
+use driveline::number::{Number, Part};
 use driveline::observer::Observer;
 
-use crate::scene::balanced::{BalancedDrive, Measurement, SensorUnit, state};
+use crate::scene::balanced::{BalancedDrive, SensorUnit, state};
 use crate::scene::composed::output;
 use crate::scene::panel_keys::{DONE, Key, refused};
 use crate::scene::{FromConfig, Input, Output, Scene};
@@ -69,47 +69,47 @@ impl<N: Number> Board<N> for Image<N> {
 
 /// An axis with its constants. Its panel is beside it, as [`AxisPanel`](crate::panel::axis_panel::AxisPanel): here it
 /// only begins readings.
-pub struct OnAxis<M, N, O, F, G>
+pub struct OnAxis<M, N, O, G, F>
 where
     N: SensorUnit + 'static,
-    O: Observer<N, Config: 'static>,
-    F: Fluctuation<N, Config: 'static>,
-    G: Governor<N, Config: 'static>,
+    O: Part<N, State: Observer<N, Config: 'static>>,
+    G: Part<N, State: Governor<N, Config: 'static>>,
+    F: Part<N, State: Fluctuation<N, Config: 'static>>,
 {
     // By reference: folded into the code, the constants cost more instructions than loaded from a table.
-    config: &'static ConfigOf<BalancedDrive<N, O, F, G>>,
-    axis: Axis<Image<N>, N, O, F, G, Measurement<N>>,
+    config: &'static ConfigOf<BalancedDrive<N, O, G, F>>,
+    axis: Axis<Image<N>, BalancedDrive<N, O, G, F>>,
     released: bool,
     machine: PhantomData<M>,
 }
 
-impl<M, N, O, F, G> OnAxis<M, N, O, F, G>
+impl<M, N, O, G, F> OnAxis<M, N, O, G, F>
 where
     N: SensorUnit + 'static,
-    O: Observer<N, Config: 'static>,
-    F: Fluctuation<N, Config: 'static>,
-    G: Governor<N, Config: 'static>,
+    O: Part<N, State: Observer<N, Config: 'static>>,
+    G: Part<N, State: Governor<N, Config: 'static>>,
+    F: Part<N, State: Fluctuation<N, Config: 'static>>,
 {
     /// The drive, to look at.
-    pub fn drive(&self) -> &BalancedDrive<N, O, F, G> {
+    pub fn drive(&self) -> &BalancedDrive<N, O, G, F> {
         self.axis.drive()
     }
 
     /// The drive, for actions between two ticks.
-    pub fn drive_mut(&mut self) -> &mut BalancedDrive<N, O, F, G> {
+    pub fn drive_mut(&mut self) -> &mut BalancedDrive<N, O, G, F> {
         self.axis.drive_mut()
     }
 }
 
-impl<M, N, O, F, G> FromConfig for OnAxis<M, N, O, F, G>
+impl<M, N, O, G, F> FromConfig for OnAxis<M, N, O, G, F>
 where
     M: HasVibration,
     N: SensorUnit + 'static,
-    O: Observer<N, Config: 'static>,
-    F: Fluctuation<N, Config: 'static>,
-    G: Governor<N, Config: 'static>,
+    O: Part<N, State: Observer<N, Config: 'static>>,
+    G: Part<N, State: Governor<N, Config: 'static>>,
+    F: Part<N, State: Fluctuation<N, Config: 'static>>,
 {
-    type Drive = BalancedDrive<N, O, F, G>;
+    type Drive = BalancedDrive<N, O, G, F>;
 
     fn from_config(config: &'static ConfigOf<Self::Drive>) -> Self {
         // An incremental encoder counts from where it was switched on.
@@ -118,13 +118,13 @@ where
     }
 }
 
-impl<M, N, O, F, G> Scene for OnAxis<M, N, O, F, G>
+impl<M, N, O, G, F> Scene for OnAxis<M, N, O, G, F>
 where
     M: HasVibration,
     N: SensorUnit + 'static,
-    O: Observer<N, Config: 'static>,
-    F: Fluctuation<N, Config: 'static>,
-    G: Governor<N, Config: 'static>,
+    O: Part<N, State: Observer<N, Config: 'static>>,
+    G: Part<N, State: Governor<N, Config: 'static>>,
+    F: Part<N, State: Fluctuation<N, Config: 'static>>,
 {
     #[inline(always)]
     fn tick(&mut self, input: &Input) -> Output {

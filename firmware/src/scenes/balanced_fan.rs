@@ -58,7 +58,7 @@ impl Goal for Quiet {
 }
 
 /// Two masses; two planes by trial weights.
-pub type TwoMass<N> = Balanced<BalancedFan, N, observer::TwoMassObserver<N>, TrialWeights<Quiet, 2, 2>>;
+pub type TwoMass<N> = Balanced<BalancedFan, N, observer::TwoMassObserver, TrialWeights<Quiet, 2, 2>>;
 
 variants! {
     "two-mass": TwoMass for BalancedFan;

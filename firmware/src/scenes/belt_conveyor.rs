@@ -74,13 +74,13 @@ impl HasSlew for TorqueStart {
 pub const COUNTS: u32 = 8_192;
 
 /// One mass: the belt taken for rigid.
-pub type Rigid<N> = Governed<N, RigidObserver<N>>;
+pub type Rigid<N> = Governed<N, RigidObserver>;
 /// Two masses, semi-implicit step: the design's choice.
-pub type SemiImplicit<N> = Governed<N, SemiImplicitObserver<N>>;
+pub type SemiImplicit<N> = Governed<N, SemiImplicitObserver>;
 /// The torque limit, approached by the slew.
-pub type Eased<N> = GovernedBy<N, SemiImplicitObserver<N>, SpeedGovernor<N, (), (), Slew<N, TorqueRange>>>;
+pub type Eased<N> = GovernedBy<N, SemiImplicitObserver, SpeedGovernor<(), (), Slew<TorqueRange>>>;
 /// The torque limit at once; for comparison, in no image.
-pub type AtOnce<N> = GovernedBy<N, SemiImplicitObserver<N>, SpeedGovernor<N, (), (), TorqueRange>>;
+pub type AtOnce<N> = GovernedBy<N, SemiImplicitObserver, SpeedGovernor<(), (), TorqueRange>>;
 
 variants! {
     "rigid": Rigid for BeltConveyor;

@@ -91,16 +91,16 @@ impl NoLoadRun for BloomingMill {
 }
 
 /// Two masses and the gap.
-pub type Backlash<N> = Governed<N, observer::BacklashObserver<N>>;
+pub type Backlash<N> = Governed<N, observer::BacklashObserver>;
 /// Two masses, the gap taken for closed.
-pub type Exact<N> = Governed<N, observer::TwoMassObserver<N>>;
+pub type Exact<N> = Governed<N, observer::TwoMassObserver>;
 /// Two masses and the gap, with backlash take-up.
-pub type Slack<N> = GovernedBy<N, observer::BacklashObserver<N>, TakeUp<N>>;
+pub type Slack<N> = GovernedBy<N, observer::BacklashObserver, TakeUp>;
 /// The same, with torque offset and inertia learnt with the spindles uncoupled.
-pub type Learnt<N> = Composed<Drive<N, observer::BacklashObserver<N>, (), TakeUp<N>>, NoLoadLearner<N, BloomingMill>>;
+pub type Learnt<N> = Composed<Drive<N, observer::BacklashObserver, TakeUp>, NoLoadLearner<N, BloomingMill>>;
 
 /// A speed governor with backlash take-up.
-type TakeUp<N> = SpeedGovernor<N, (), (), BacklashTakeUp<N, SymmetricLimit>>;
+type TakeUp = SpeedGovernor<(), (), BacklashTakeUp<SymmetricLimit>>;
 
 variants! {
     "backlash": Backlash for BloomingMill;

@@ -1,40 +1,32 @@
 //! The hoist's drive with parts left out, to measure the cost of each: an observer alone, with a governor, with a
 //! measurement of the fluctuation, and an observer called directly, without a drive.
 
-use driveline::balancing::Balancer;
 use driveline::drive::{ConfigOf, Drive};
 use driveline::fault::Faults;
-use driveline::fluctuation::{Extremes, Fluctuation, Waveform};
-use driveline::governor::{Governor, SpeedLoop};
-use driveline::number::Number;
+use driveline::fluctuation::{Extremes, Waveform};
+use driveline::governor::SpeedLoop;
+use driveline::number::{Number, Part, StateOf};
 use driveline::observer::{GearedObserver, Observer, RigidObserver, SemiImplicitObserver, TwoMassObserver};
 use driveline::sample::{Command, Sample};
 
 use super::hoist::Hoist;
-use crate::scene::composed::{Beside, Composed, output, sample};
+use crate::scene::composed::{Beside, Composed, OverWords, output, sample};
 use crate::scene::table::variants;
 use crate::scene::{FromConfig, Input, Output, Scene};
 
 /// A tick and nothing else: the drive is always at work.
 pub struct AtWork;
 
-impl<N, O, F, G, B> Beside<Drive<N, O, F, G, B>> for AtWork
-where
-    N: Number,
-    O: Observer<N>,
-    F: Fluctuation<N>,
-    G: Governor<N>,
-    B: Balancer<N>,
-{
-    fn start(_: &mut Drive<N, O, F, G, B>, _: &ConfigOf<Drive<N, O, F, G, B>>) -> Self {
+impl<D: OverWords> Beside<D> for AtWork {
+    fn start(_: &mut D, _: &ConfigOf<D>) -> Self {
         AtWork
     }
 
     #[inline(always)]
     fn tick(
         &mut self,
-        drive: &mut Drive<N, O, F, G, B>,
-        config: &ConfigOf<Drive<N, O, F, G, B>>,
+        drive: &mut D,
+        config: &ConfigOf<D>,
         input: &Input,
     ) -> Output {
         let command = drive.tick(config, &sample(input));
@@ -43,30 +35,30 @@ where
 }
 
 /// A drive of these parts.
-pub type Parts<N, O, G = (), F = ()> = Composed<Drive<N, O, F, G>, AtWork>;
+pub type Parts<N, O, G = (), F = ()> = Composed<Drive<N, O, G, F>, AtWork>;
 
 /// One mass, observed.
-pub type Rigid<N> = Parts<N, RigidObserver<N>>;
+pub type Rigid<N> = Parts<N, RigidObserver>;
 /// One mass, governed.
-pub type RigidGoverned<N> = Parts<N, RigidObserver<N>, SpeedLoop<N>>;
+pub type RigidGoverned<N> = Parts<N, RigidObserver, SpeedLoop>;
 /// Two masses, semi-implicit step, observed.
-pub type SemiImplicit<N> = Parts<N, SemiImplicitObserver<N>>;
+pub type SemiImplicit<N> = Parts<N, SemiImplicitObserver>;
 /// Two masses, semi-implicit step, governed.
-pub type SemiImplicitGoverned<N> = Parts<N, SemiImplicitObserver<N>, SpeedLoop<N>>;
+pub type SemiImplicitGoverned<N> = Parts<N, SemiImplicitObserver, SpeedLoop>;
 /// Two masses, exact step, observed.
-pub type TwoMass<N> = Parts<N, TwoMassObserver<N>>;
+pub type TwoMass<N> = Parts<N, TwoMassObserver>;
 /// Two masses, exact step, governed.
-pub type TwoMassGoverned<N> = Parts<N, TwoMassObserver<N>, SpeedLoop<N>>;
+pub type TwoMassGoverned<N> = Parts<N, TwoMassObserver, SpeedLoop>;
 /// Two masses behind a gear, observed.
-pub type Geared<N> = Parts<N, GearedObserver<TwoMassObserver<N>>>;
+pub type Geared<N> = Parts<N, GearedObserver<TwoMassObserver>>;
 /// Two masses behind a gear, governed.
-pub type GearedGoverned<N> = Parts<N, GearedObserver<TwoMassObserver<N>>, SpeedLoop<N>>;
+pub type GearedGoverned<N> = Parts<N, GearedObserver<TwoMassObserver>, SpeedLoop>;
 /// Two masses, and the extremes of the speed.
-pub type TwoMassExtremes<N> = Parts<N, TwoMassObserver<N>, (), Extremes<N>>;
+pub type TwoMassExtremes<N> = Parts<N, TwoMassObserver, (), Extremes>;
 /// Two masses, and the waveform of the speed.
-pub type TwoMassWaveform<N> = Parts<N, TwoMassObserver<N>, (), Waveform<N, 64>>;
+pub type TwoMassWaveform<N> = Parts<N, TwoMassObserver, (), Waveform<64>>;
 /// Two masses, called by hand.
-pub type TwoMassByHand<N> = ByHand<N, TwoMassObserver<N>>;
+pub type TwoMassByHand<N> = ByHand<N, TwoMassObserver>;
 
 variants! {
     "rigid-observer": Rigid for Hoist<10_000>;
@@ -88,14 +80,14 @@ const ONE: i32 = NONE_YET + 1;
 
 /// An observer called directly with the screening of [`driveline::drive`]: the reference for a drive with an observer
 /// alone. It follows `Drive::observe` and `Drive::search` line by line.
-pub struct ByHand<N: Number + 'static, O: Observer<N, Config: 'static> + 'static> {
+pub struct ByHand<N: Number + 'static, O: Part<N, State: Observer<N, Config: 'static>> + 'static> {
     config: &'static ConfigOf<Drive<N, O>>,
-    observer: O,
+    observer: O::State,
     torque: N,
     missed: i32,
 }
 
-impl<N: Number, O: Observer<N>> ByHand<N, O> {
+impl<N: Number, O: Part<N, State: Observer<N>>> ByHand<N, O> {
     #[inline(always)]
     fn tick(&mut self, sample: &Sample<N>) -> Command<N> {
         let faults = if self.missed < 0 { self.search(sample) } else { self.observe(sample) };
@@ -144,7 +136,7 @@ impl<N: Number, O: Observer<N>> ByHand<N, O> {
         }
         let last = self.observer.angle();
         let turned = N::from_angle(sample.angle.wrapping_sub(last) as i32);
-        let speed = O::speed_of_turn(&self.config.observer, turned);
+        let speed = <StateOf<O, N>>::speed_of_turn(&self.config.observer, turned);
         if sample.angle == last {
             faults = Faults::ANGLE_FROZEN | Faults::ANGLE_LOST;
             self.missed = NONE_YET;
@@ -152,10 +144,10 @@ impl<N: Number, O: Observer<N>> ByHand<N, O> {
             self.observer.resync(sample.angle);
             self.missed = ONE;
         } else {
-            let count = O::speed_of_turn(&self.config.observer, N::ZERO.less_turn(limits.frozen_turn)).magnitude();
+            let count = <StateOf<O, N>>::speed_of_turn(&self.config.observer, N::ZERO.less_turn(limits.frozen_turn)).magnitude();
             let known = self.observer.estimate(&self.config.observer).motor_speed;
             if (speed - known).exceeds(count) {
-                self.observer = O::steady(&self.config.observer, sample.angle, torque, speed);
+                self.observer = <StateOf<O, N>>::steady(&self.config.observer, sample.angle, torque, speed);
             } else {
                 self.observer.resync(sample.angle);
             }
@@ -166,15 +158,15 @@ impl<N: Number, O: Observer<N>> ByHand<N, O> {
     }
 }
 
-impl<N: Number, O: Observer<N, Config: 'static>> FromConfig for ByHand<N, O> {
+impl<N: Number, O: Part<N, State: Observer<N, Config: 'static>>> FromConfig for ByHand<N, O> {
     type Drive = Drive<N, O>;
 
     fn from_config(config: &'static ConfigOf<Drive<N, O>>) -> Self {
-        ByHand { config, observer: O::at_rest(&config.observer, 0, N::ZERO), torque: N::ZERO, missed: 0 }
+        ByHand { config, observer: <StateOf<O, N>>::at_rest(&config.observer, 0, N::ZERO), torque: N::ZERO, missed: 0 }
     }
 }
 
-impl<N: Number, O: Observer<N>> Scene for ByHand<N, O> {
+impl<N: Number, O: Part<N, State: Observer<N>>> Scene for ByHand<N, O> {
     #[inline(always)]
     fn tick(&mut self, input: &Input) -> Output {
         let command = ByHand::tick(self, &sample(input));

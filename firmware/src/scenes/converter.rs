@@ -79,12 +79,12 @@ impl HasBacklash for Converter {
 }
 
 /// A plain speed loop.
-pub type Plain<N> = GovernedBy<N, BacklashObserver<N>, SpeedGovernor<N, (), (), SymmetricLimit>>;
+pub type Plain<N> = GovernedBy<N, BacklashObserver, SpeedGovernor>;
 /// With backlash take-up.
 pub type Slack<N> = GovernedBy<
     N,
-    BacklashObserver<N>,
-    SpeedGovernor<N, (), (), driveline::governor::BacklashTakeUp<N, SymmetricLimit>>,
+    BacklashObserver,
+    SpeedGovernor<(), (), driveline::governor::BacklashTakeUp<SymmetricLimit>>,
 >;
 
 variants! {

@@ -26,7 +26,7 @@ use driveline::fault::Faults;
 use driveline::governor::{LoadSharing, LoadSharingConfig, SpeedLoop};
 use driveline::machine::{Chain, Damping, Efficiency, Inertia, Ratio, Stiffness};
 use driveline::number::Number;
-use driveline::observer::{Observer, TwoMassObserver};
+use driveline::observer::TwoMassObserver;
 use driveline::settings::{Bases, LoadSharingSettings, Screening};
 
 use crate::scene::composed::{Beside, Composed, OverWords};
@@ -101,22 +101,22 @@ pub struct Motors<M, N> {
     machine: PhantomData<M>,
 }
 
-impl<M, N, O> Beside<Drive<N, O, (), SpeedLoop<N>>> for Motors<M, N>
+impl<M, N, D> Beside<D> for Motors<M, N>
 where
     M: HasLoadSharing,
     N: Number,
-    O: Observer<N>,
+    D: OverWords<Number = N>,
     LoadSharing<N, MOTORS>: Configure<M, N, Config = LoadSharingConfig<N>>,
 {
-    fn start(_: &mut Drive<N, O, (), SpeedLoop<N>>, _: &ConfigOf<Drive<N, O, (), SpeedLoop<N>>>) -> Self {
+    fn start(_: &mut D, _: &ConfigOf<D>) -> Self {
         Motors { sharing: LoadSharing::default(), torques: [N::ZERO; MOTORS], machine: PhantomData }
     }
 
     #[inline(always)]
     fn tick(
         &mut self,
-        drive: &mut Drive<N, O, (), SpeedLoop<N>>,
-        config: &ConfigOf<Drive<N, O, (), SpeedLoop<N>>>,
+        drive: &mut D,
+        config: &ConfigOf<D>,
         input: &Input,
     ) -> Output {
         if input.flags & Input::MOTORS != 0 {
@@ -154,7 +154,7 @@ where
 }
 
 /// Four motors with a bias, on one observer of two masses.
-pub type Biased<N> = Composed<Drive<N, TwoMassObserver<N>, (), SpeedLoop<N>>, Motors<ConverterRing, N>>;
+pub type Biased<N> = Composed<Drive<N, TwoMassObserver, SpeedLoop>, Motors<ConverterRing, N>>;
 
 variants! {
     "biased": Biased for ConverterRing;

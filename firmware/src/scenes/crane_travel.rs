@@ -123,18 +123,18 @@ pub const fn selection() -> ObserverSelection {
 }
 
 /// A speed loop that follows the ramp with a lag of half a period of the load's swing: the load hardly swings.
-pub type Loop<N> = SpeedLoop<N, SetpointLag<N>>;
+pub type Loop = SpeedLoop<SetpointLag>;
 
 /// One mass: the load fixed to the trolley.
-pub type Rigid<N> = GovernedBy<N, observer::RigidObserver<N>, Loop<N>>;
+pub type Rigid<N> = GovernedBy<N, observer::RigidObserver, Loop>;
 /// Two masses, semi-implicit step: the design's choice.
-pub type SemiImplicit<N> = GovernedBy<N, observer::SemiImplicitObserver<N>, Loop<N>>;
+pub type SemiImplicit<N> = GovernedBy<N, observer::SemiImplicitObserver, Loop>;
 /// The same, with torque offset and inertia learnt in a run with an empty hook, the torque constant in one with a test
 /// weight.
-pub type Learnt<N> = Composed<Drive<N, observer::SemiImplicitObserver<N>, (), Loop<N>>, NoLoadLearner<N, CraneTravel>>;
+pub type Learnt<N> = Composed<Drive<N, observer::SemiImplicitObserver, Loop>, NoLoadLearner<N, CraneTravel>>;
 
 /// The drive of two masses, a stiff speed loop, and a setpoint that leaves no swing behind; taken every 0.2 s.
-pub type ShapedDrive<N> = Drive<N, observer::SemiImplicitObserver<N>, (), InputShaper<N, Loop<N>, SLOTS>>;
+pub type ShapedDrive<N> = Drive<N, observer::SemiImplicitObserver, InputShaper<Loop, SLOTS>>;
 /// The same with a shaper that follows the length of the rope from travel to travel.
 pub type Shaped<N> = Composed<ShapedDrive<N>, ByRope<N>>;
 

@@ -56,7 +56,7 @@ pub const fn selection() -> ObserverSelection {
 }
 
 /// One mass.
-pub type Rigid<N> = Governed<N, observer::RigidObserver<N>>;
+pub type Rigid<N> = Governed<N, observer::RigidObserver>;
 
 variants! {
     "rigid": Rigid for Fan;

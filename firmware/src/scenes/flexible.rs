@@ -61,7 +61,7 @@ impl Goal for Quiet {
 }
 
 /// Two masses; three planes at two speeds by trial weights.
-pub type TwoMass<N> = Balanced<Flexible, N, observer::TwoMassObserver<N>, TrialWeights<Quiet, 4, 3>>;
+pub type TwoMass<N> = Balanced<Flexible, N, observer::TwoMassObserver, TrialWeights<Quiet, 4, 3>>;
 
 variants! {
     "two-mass": TwoMass for Flexible;

@@ -81,7 +81,7 @@ pub const fn selection() -> ObserverSelection {
 }
 
 /// Two masses, exact step: the design's choice.
-pub type Exact<N> = Governed<N, TwoMassObserver<N>>;
+pub type Exact<N> = Governed<N, TwoMassObserver>;
 
 variants! {
     "exact": Exact for GearDrive;

@@ -47,7 +47,7 @@ use driveline::governor::{
 use driveline::machine::{
     Chain, Characteristic, Damping, Inertia, Line, Match, Parabola, Speed, Stiffness, Torque, TwoMass as TwoMassMachine,
 };
-use driveline::number::{Fixed, Number};
+use driveline::number::{Fixed, Number, Part};
 use driveline::observer::TwoMassObserver;
 use driveline::sample::Sample;
 use driveline::settings::{ActuatorMonitorSettings, Bases, Screening, SequencerSettings};
@@ -303,10 +303,10 @@ pub const RING: usize = 32;
 pub const FIRING: usize = 32;
 
 /// The governor of a genset, with feed-forward or another compensation.
-pub type Governor<N, F = FeedForward> =
-    SpeedGovernor<N, (Droop, Barred<1>), F, Curve<4>, Sequencer, MovingAverage<N, FIRING>>;
+pub type Governor<F = FeedForward> =
+    SpeedGovernor<(Droop, Barred<1>), F, Curve<4>, Sequencer, MovingAverage<FIRING>>;
 /// The drive of a set.
-pub type DriveOf<N, F = FeedForward> = Drive<N, TwoMassObserver<N>, (), Governor<N, F>>;
+pub type DriveOf<N, F = FeedForward> = Drive<N, TwoMassObserver, Governor<F>>;
 
 /// The diesel set's drive.
 pub type Diesel<N> = Composed<DriveOf<N>, Actuated<N, DieselSet>>;
@@ -396,7 +396,7 @@ impl<S: HasSet, const CONSTANTS: usize> HasSequencer for With<S, CONSTANTS> {
 /// The constants of a set in a number, beside those of its drive at the start.
 pub trait InNumber<N: Number + 'static>: HasSet {
     /// Its compensation.
-    type Added: Compensation<N, Config: 'static>;
+    type Added: Part<N, State: Compensation<N, Config: 'static>>;
     /// The constants that the panel chooses from.
     const CONFIGS: &'static [ConfigOf<DriveOf<N, Self::Added>>; 3];
     /// The watch on the actuator.
@@ -475,8 +475,11 @@ impl<N: Number + 'static, S: InNumber<N>> Actuated<N, S> {
     }
 }
 
-impl<N: Number + 'static, S: InNumber<N, Added = F>, F: Compensation<N, Config: 'static>> Beside<DriveOf<N, F>>
-    for Actuated<N, S>
+impl<N, S, F> Beside<DriveOf<N, F>> for Actuated<N, S>
+where
+    N: Number + 'static,
+    S: InNumber<N, Added = F>,
+    F: Part<N, State: Compensation<N, Config: 'static>>,
 {
     fn constants(_: &'static ConfigOf<DriveOf<N, F>>) -> &'static ConfigOf<DriveOf<N, F>> {
         let [first, ..] = S::CONFIGS;

@@ -67,7 +67,7 @@ impl Head for TheHead {
 }
 
 /// Two masses; balanced while it turns.
-pub type TwoMass<N> = Balanced<GrindingSpindle, N, observer::TwoMassObserver<N>, HeadPanel<TheHead>>;
+pub type TwoMass<N> = Balanced<GrindingSpindle, N, observer::TwoMassObserver, HeadPanel<TheHead>>;
 
 variants! {
     "two-mass": TwoMass for GrindingSpindle;

@@ -25,11 +25,11 @@ const _: () = {
 };
 
 /// One mass.
-pub type Rigid<N> = Governed<N, GearedObserver<observer::RigidObserver<N>>>;
+pub type Rigid<N> = Governed<N, GearedObserver<observer::RigidObserver>>;
 /// Two masses, exact step: the design's choice overruled.
-pub type Exact<N> = Governed<N, GearedObserver<observer::TwoMassObserver<N>>>;
+pub type Exact<N> = Governed<N, GearedObserver<observer::TwoMassObserver>>;
 /// Two masses, semi-implicit step: the design's choice.
-pub type Reduced<N> = Governed<N, GearedObserver<SemiImplicitObserver<N>>>;
+pub type Reduced<N> = Governed<N, GearedObserver<SemiImplicitObserver>>;
 
 variants! {
     "rigid": Rigid for Hoist<1_000>, Hoist<4_000>, Hoist<10_000>;

@@ -78,9 +78,9 @@ pub const fn selection() -> ObserverSelection {
 }
 
 /// One mass behind the gear.
-pub type Rigid<N> = Governed<N, GearedObserver<observer::RigidObserver<N>>>;
+pub type Rigid<N> = Governed<N, GearedObserver<observer::RigidObserver>>;
 /// Two masses behind the gear, exact step.
-pub type Exact<N> = Governed<N, GearedObserver<TwoMassObserver<N>>>;
+pub type Exact<N> = Governed<N, GearedObserver<TwoMassObserver>>;
 
 variants! {
     "rigid": Rigid for PlanetaryDrive;

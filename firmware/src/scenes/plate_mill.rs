@@ -51,7 +51,7 @@ impl Machine for PlateMill {
 }
 
 /// Two masses, exact step.
-pub type Exact<N> = Governed<N, TwoMassObserver<N>>;
+pub type Exact<N> = Governed<N, TwoMassObserver>;
 
 variants! {
     "exact": Exact for PlateMill;

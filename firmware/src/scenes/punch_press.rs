@@ -149,14 +149,9 @@ pub mod panel {
 }
 
 /// The drive of a press that is governed by a plain speed loop.
-pub type PlainDrive<N> = Drive<N, observer::CrankObserver<N>, (), SpeedLoop<N>>;
+pub type PlainDrive<N> = Drive<N, observer::CrankObserver, SpeedLoop>;
 /// The drive of a press that is governed on the mean over a stroke, with the measurement of the fluctuation.
-pub type MeanDrive<N> = Drive<
-    N,
-    observer::CrankObserver<N>,
-    (CycleMean<N, SEGMENTS>, Waveform<N, BINS>),
-    SpeedGovernor<N, (), (), SymmetricLimit, (), CycleAverage<N>>,
->;
+pub type MeanDrive<N> = Drive<N, observer::CrankObserver, SpeedGovernor<(), (), SymmetricLimit, (), CycleAverage>, (CycleMean<SEGMENTS>, Waveform<BINS>)>;
 
 /// A plain speed loop.
 pub type Plain<N> = Composed<PlainDrive<N>, FromTop>;

@@ -134,16 +134,16 @@ impl HasBacklash for SkipOnRope {
 }
 
 /// One mass behind the gear.
-pub type Rigid<N> = Governed<N, GearedObserver<observer::RigidObserver<N>>>;
+pub type Rigid<N> = Governed<N, GearedObserver<observer::RigidObserver>>;
 /// Two masses behind the gear, semi-implicit step: the design's choice.
-pub type SemiImplicit<N> = Governed<N, GearedObserver<observer::SemiImplicitObserver<N>>>;
+pub type SemiImplicit<N> = Governed<N, GearedObserver<observer::SemiImplicitObserver>>;
 /// A plain speed loop.
-pub type Plain<N> = GovernedBy<N, GearedObserver<BacklashObserver<N>>, SpeedGovernor<N, (), (), SymmetricLimit>>;
+pub type Plain<N> = GovernedBy<N, GearedObserver<BacklashObserver>, SpeedGovernor>;
 /// With take-up of the slack rope.
 pub type Slack<N> = GovernedBy<
     N,
-    GearedObserver<BacklashObserver<N>>,
-    SpeedGovernor<N, (), (), driveline::governor::BacklashTakeUp<N, SymmetricLimit>>,
+    GearedObserver<BacklashObserver>,
+    SpeedGovernor<(), (), driveline::governor::BacklashTakeUp<SymmetricLimit>>,
 >;
 
 variants! {

@@ -77,9 +77,9 @@ pub const fn selection() -> ObserverSelection {
 }
 
 /// One mass: the choice over the tolerances.
-pub type Rigid<N> = Governed<N, observer::RigidObserver<N>>;
+pub type Rigid<N> = Governed<N, observer::RigidObserver>;
 /// Two masses, exact step: what the load cycle alone asks for.
-pub type Exact<N> = Governed<N, TwoMassObserver<N>>;
+pub type Exact<N> = Governed<N, TwoMassObserver>;
 
 variants! {
     "rigid": Rigid for Spindle;

@@ -74,15 +74,15 @@ pub const fn selection() -> ObserverSelection {
 }
 
 /// A speed loop with lags that keep the spindles from swinging at the run-up and after a bite.
-type Loop<N> = SpeedLoop<N, (SetpointLag<N>, DampingLag<N>)>;
+type Loop = SpeedLoop<(SetpointLag, DampingLag)>;
 
 /// One mass.
-pub type Rigid<N> = GovernedBy<N, observer::RigidObserver<N>, Loop<N>>;
+pub type Rigid<N> = GovernedBy<N, observer::RigidObserver, Loop>;
 /// Two masses, semi-implicit step: the design's choice.
-pub type SemiImplicit<N> = GovernedBy<N, observer::SemiImplicitObserver<N>, Loop<N>>;
+pub type SemiImplicit<N> = GovernedBy<N, observer::SemiImplicitObserver, Loop>;
 /// The same with the life of the spindles counted, in 128 classes of 9.4 kN m.
 pub type Life<N> =
-    Composed<Drive<N, observer::SemiImplicitObserver<N>, Rainflow<N, 128>, Loop<N>>, LifePanel<StripMill>>;
+    Composed<Drive<N, observer::SemiImplicitObserver, Loop, Rainflow<128>>, LifePanel<StripMill>>;
 
 variants! {
     "rigid": Rigid for StripMill;

@@ -23,7 +23,7 @@ use driveline::configure::{HasVibration, Machine, Rating};
 use driveline::design::{Disturbance, Encoder, SpeedLoopDesign, SpeedLoopTuning};
 use driveline::drive::ConfigOf;
 use driveline::fluctuation::{Interleaved, Ranked, Summed};
-use driveline::governor::{SpeedGovernor, SymmetricLimit};
+use driveline::governor::SpeedGovernor;
 use driveline::machine::{Chain, Damping, Inertia, Stiffness};
 use driveline::observer::SemiImplicitObserver;
 use driveline::settings::{PhasorSettings, Screening};
@@ -99,11 +99,11 @@ impl Head for TheHead {
 }
 
 /// The measurement of the fluctuation over a turn: each turn's extremes, and the mean waveform of 32 turns.
-pub type TurnFluctuation<N> = Interleaved<N, BINS>;
+pub type TurnFluctuation = Interleaved<BINS>;
 /// The governor, composed of parts.
-pub type TheGovernor<N> = SpeedGovernor<N, (), (), SymmetricLimit>;
+pub type TheGovernor = SpeedGovernor;
 /// The drive with all four parts.
-pub type WholeDrive<N> = BalancedDrive<N, SemiImplicitObserver<N>, TurnFluctuation<N>, TheGovernor<N>>;
+pub type WholeDrive<N> = BalancedDrive<N, SemiImplicitObserver, TheGovernor, TurnFluctuation>;
 
 /// The drive with its panel.
 pub type Whole<N> = Composed<WholeDrive<N>, Desk>;

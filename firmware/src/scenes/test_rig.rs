@@ -12,7 +12,7 @@ use driveline::balancing::{InRunConfig, Steadiness};
 use driveline::configure::{HasVibration, Machine, Rating};
 use driveline::design::{Disturbance, Encoder, SpeedLoopTuning, Tolerance};
 use driveline::fluctuation::Interleaved;
-use driveline::governor::{ActiveDamping, SpeedGovernor, SymmetricLimit};
+use driveline::governor::{ActiveDamping, SpeedGovernor};
 use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Section, ShearModulus, stepped};
 use driveline::observer::TwoMassObserver;
 use driveline::settings::{PhasorSettings, Screening};
@@ -105,7 +105,7 @@ pub type Adviser = (TrialWeights<Quiet, 2, 2>, HeadPanel<SmallHead>);
 
 /// The drive with all four parts, on an axis.
 pub type Whole<N> =
-    OnAxis<TestRig, N, TwoMassObserver<N>, Interleaved<N, BINS>, SpeedGovernor<N, (), ActiveDamping, SymmetricLimit>>;
+    OnAxis<TestRig, N, TwoMassObserver, SpeedGovernor<(), ActiveDamping>, Interleaved<BINS>>;
 
 variants! {
     f32: "whole": Whole for TestRig;

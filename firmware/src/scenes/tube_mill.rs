@@ -20,7 +20,7 @@ use driveline::machine::{
     Chain, Characteristic, Damping, Efficiency, Induction, Inertia, Ratio, ResistorStart, Speed, Stiffness, Torque,
 };
 use driveline::number::{Fixed, Number};
-use driveline::observer::{Observer, TwoMassObserver};
+use driveline::observer::TwoMassObserver;
 use driveline::settings::Bases;
 use driveline::telemetry::{Channel, Kind};
 
@@ -116,11 +116,11 @@ pub struct Starter<N> {
     number: PhantomData<N>,
 }
 
-impl<N: Starting, O: Observer<N>> Beside<Drive<N, O, (), ()>> for Starter<N> {
+impl<N: Starting, D: OverWords<Number = N>> Beside<D> for Starter<N> {
     const CHANNELS: &'static [Channel<'static>] =
         &[Channel { name: "resistors cut out", unit: "", kind: Kind::Integer(1.0) }];
 
-    fn start(_: &mut Drive<N, O, (), ()>, _: &ConfigOf<Drive<N, O, (), ()>>) -> Self {
+    fn start(_: &mut D, _: &ConfigOf<D>) -> Self {
         Starter { starter: ResistorStarter::default(), number: PhantomData }
     }
 
@@ -128,8 +128,8 @@ impl<N: Starting, O: Observer<N>> Beside<Drive<N, O, (), ()>> for Starter<N> {
     #[inline(always)]
     fn tick(
         &mut self,
-        drive: &mut Drive<N, O, (), ()>,
-        config: &ConfigOf<Drive<N, O, (), ()>>,
+        drive: &mut D,
+        config: &ConfigOf<D>,
         input: &Input,
     ) -> Output {
         let output = drive.advance(config, input);
@@ -155,7 +155,7 @@ impl<N: Starting, O: Observer<N>> Beside<Drive<N, O, (), ()>> for Starter<N> {
 }
 
 /// Two masses, and the starter.
-pub type Resistors<N> = Composed<Drive<N, TwoMassObserver<N>, (), ()>, Starter<N>>;
+pub type Resistors<N> = Composed<Drive<N, TwoMassObserver>, Starter<N>>;
 
 variants! {
     "resistors": Resistors for TubeMill;

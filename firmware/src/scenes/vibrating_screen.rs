@@ -15,7 +15,7 @@ use driveline::design::{
     BarredSpeeds, Disturbance, Encoder, LoadCycle, ObserverSelection, Requirement, SpeedLoopDesign, SpeedLoopTuning,
     USUAL_MARGIN,
 };
-use driveline::governor::{Barred, SpeedGovernor, SymmetricLimit};
+use driveline::governor::{Barred, SpeedGovernor};
 use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Section, ShearModulus};
 use driveline::math::sqrt;
 use driveline::observer::TwoMassObserver;
@@ -103,9 +103,9 @@ pub const fn selection() -> ObserverSelection {
 }
 
 /// The resonances passed by a quick ramp.
-pub type Exact<N> = GovernedBy<N, TwoMassObserver<N>, SpeedGovernor<N, Barred<2>, (), SymmetricLimit>>;
+pub type Exact<N> = GovernedBy<N, TwoMassObserver, SpeedGovernor<Barred<2>>>;
 /// The resonances passed as any other speed; for comparison, in no image.
-pub type Plain<N> = GovernedBy<N, TwoMassObserver<N>, SpeedGovernor<N, (), (), SymmetricLimit>>;
+pub type Plain<N> = GovernedBy<N, TwoMassObserver, SpeedGovernor>;
 
 variants! {
     "exact": Exact for VibratingScreen;

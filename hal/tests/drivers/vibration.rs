@@ -2,7 +2,7 @@
 
 use driveline::axis::{Axis, TRIPPING, VibrationSensor};
 use driveline::balancing::{Phasors, PhasorsConfig, Reading, ReadingFault};
-use driveline::drive::Config;
+use driveline::drive::{Config, Drive};
 use driveline::fault::Faults;
 use driveline::governor::SpeedLoop;
 use driveline::number::Fixed;
@@ -163,7 +163,7 @@ fn a_reading_through_an_axis_says_what_its_samples_lacked() {
         governor: scripted::CONFIG.governor,
         balancer: PhasorsConfig::<f32, 1>::new(&PhasorSettings { turns: 1, ..PhasorSettings::DIRECT }, [100.0]),
     };
-    let mut axis = Axis::<_, f32, scripted::Observer, (), SpeedLoop<f32>, Phasors<f32, 1, 3>>::new(
+    let mut axis = Axis::<_, Drive<f32, scripted::Observer, SpeedLoop, (), Phasors<1, 3>>>::new(
         scripted::Scripted::sound(),
         &config,
         TRIPPING,

@@ -78,7 +78,7 @@ fn gains(scene: &Scene) -> [f32; 3] {
 
 /// The library's loop alone; the ramp of its own has nothing left to do.
 #[derive(Clone, Copy, Debug)]
-pub struct LibraryLoop(SpeedLoop<f32>, SpeedLoopConfig<f32>);
+pub struct LibraryLoop(SpeedLoop, SpeedLoopConfig<f32>);
 
 impl LibraryLoop {
     /// With the scene's gains; none that `f32` does not hold.
@@ -176,7 +176,7 @@ pub struct Observed<N: Number, O: Observer<N>> {
     config: O::Config,
     observer: O,
     loop_config: SpeedLoopConfig<N>,
-    governor: SpeedLoop<N>,
+    governor: SpeedLoop<(), N>,
 }
 
 impl<N: Number, O: Observer<N>> Observed<N, O> {

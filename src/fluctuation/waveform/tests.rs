@@ -3,7 +3,7 @@
 use super::super::CycleConfig;
 use super::*;
 
-type Eight = Waveform<f64, 8>;
+type Eight = Waveform<8, f64>;
 
 /// A turn in quarters and five units, of two bins to a quarter; four cycles to a window.
 const CONFIG: WaveformConfig = WaveformConfig {

@@ -12,8 +12,8 @@ use driveline::observer::{GearedObserver, SemiImplicitObserver};
 
 use crate::hoist::Hoist;
 
-pub type Observer = GearedObserver<SemiImplicitObserver<f32>>;
-type HoistDrive = Drive<f32, Observer, (), SpeedLoop<f32>>;
+pub type Observer = GearedObserver<SemiImplicitObserver>;
+type HoistDrive = Drive<f32, Observer, SpeedLoop>;
 pub const CONFIG: &ConfigOf<HoistDrive> = const { &HoistDrive::configure::<Hoist<10_000>>() };
 
 /// The speed at which the motor turns (rad/s), and what is wanted of it: more, so that there is torque.
@@ -72,7 +72,7 @@ impl Board<f32> for Scripted {
     }
 }
 
-pub type Whole<P> = Axis<P, f32, Observer, (), SpeedLoop<f32>>;
+pub type Whole<P> = Axis<P, HoistDrive>;
 
 /// Ticks after which a drive that was switched on under a turning motor has caught it: the 150 that its limit counts,
 /// and the search.

@@ -55,7 +55,7 @@ fn run<N: Synchronous, const EDGES: usize>(
     number: impl Fn(f64) -> N,
     mut vibration: impl FnMut(f64, &mut Noise) -> f64,
 ) -> Result<Reading, ReadingFault> {
-    let mut phasors = Phasors::<N, 1, EDGES>::default();
+    let mut phasors = Phasors::<1, EDGES, N>::default();
     for _ in 0..2_000_000 {
         let (angle, theta) = rig.next();
         let v = vibration(theta, &mut rig.noise);
@@ -168,7 +168,7 @@ fn orders_are_told_apart() {
 fn a_ratio_loses_nothing() {
     let measured = PhasorSettings { rotor_turns: 31, motor_turns: 47, turns: 300, ..CALM };
     let config = PhasorsConfig::<f32, 1>::new(&measured, [1.0]);
-    let mut phasors = Phasors::<f32, 1, 2>::default();
+    let mut phasors = Phasors::<1, 2, f32>::default();
     let (mut angle, mut seen) = (0_u32, 0);
     for turn in 0..4_700_000_u32 {
         for part in [1_431_655_765, 1_431_655_765, 1_431_655_766] {
@@ -310,7 +310,7 @@ fn the_floor_of_a_machine_is_the_same_in_every_number() {
     }
     machine!(Above, 1.0);
     machine!(Below, 0.05);
-    type One<N> = Phasors<N, 1, 9>;
+    type One = Phasors<1, 9>;
     // a block of 400 samples has noise of 1.6 sqrt(2/400) sqrt(2) = 0.16, the mean of eight 0.057: 28 % of 0.2, 6 % of
     // the floor of 1
     let signal = |theta: f64, noise: &mut Noise| 0.2 * theta.cos() + 1.6 * noise.normal();
@@ -319,18 +319,18 @@ fn the_floor_of_a_machine_is_the_same_in_every_number() {
         let base = Above::VIBRATION_BASE;
         let both = [
             [
-                run::<f32, 9>(&<One<f32> as Configure<Above, f32>>::CONFIG, &mut rig(), |v| v as f32, signal),
-                run::<f32, 9>(&<One<f32> as Configure<Below, f32>>::CONFIG, &mut rig(), |v| v as f32, signal),
+                run::<f32, 9>(&<One as Configure<Above, f32>>::CONFIG, &mut rig(), |v| v as f32, signal),
+                run::<f32, 9>(&<One as Configure<Below, f32>>::CONFIG, &mut rig(), |v| v as f32, signal),
             ],
             [
                 run::<Fixed, 9>(
-                    &<One<Fixed> as Configure<Above, Fixed>>::CONFIG,
+                    &<One as Configure<Above, Fixed>>::CONFIG,
                     &mut rig(),
                     |v| Fixed::from_f64(v / base),
                     signal,
                 ),
                 run::<Fixed, 9>(
-                    &<One<Fixed> as Configure<Below, Fixed>>::CONFIG,
+                    &<One as Configure<Below, Fixed>>::CONFIG,
                     &mut rig(),
                     |v| Fixed::from_f64(v / base),
                     signal,
@@ -378,7 +378,7 @@ fn one_pulse_a_turn_is_an_angle() {
     let config = PhasorsConfig::<f32, 1>::new(&PhasorSettings { steadiness, ..CALM }, [20.0]);
     for (start, captured) in [(0.0, false), (0.31, false), (0.77, true), (0.93, true)] {
         let mut tacho = OncePerTurn::new();
-        let mut phasors = Phasors::<f32, 1, 9>::default();
+        let mut phasors = Phasors::<1, 9, f32>::default();
         let mut turned = start;
         for _ in 0..3000 {
             let before: f64 = turned;
@@ -423,7 +423,7 @@ fn pulses_that_bounce_or_stay_away() {
 fn turning_backwards_is_no_reading_and_a_negative_ratio_makes_it_one() {
     let config = PhasorsConfig::<f32, 1>::new(&CALM, [1.5]);
     let reversed = PhasorsConfig::<f32, 1>::new(&PhasorSettings { rotor_turns: -1, ..CALM }, [1.5]);
-    let (mut wrong, mut right) = (Phasors::<f32, 1, 9>::default(), Phasors::<f32, 1, 9>::default());
+    let (mut wrong, mut right) = (Phasors::<1, 9, f32>::default(), Phasors::<1, 9, f32>::default());
     let mut angle = 0_u32;
     for _ in 0..5000 {
         angle = angle.wrapping_sub(80_000_003);
@@ -445,7 +445,7 @@ fn turning_backwards_is_no_reading_and_a_negative_ratio_makes_it_one() {
 fn garbage_is_survived() {
     let measured = PhasorSettings { rotor_turns: 97, motor_turns: 7, turns: 1, ..CALM };
     let config = PhasorsConfig::<f32, 1>::new(&measured, [1e3]);
-    let mut phasors = Phasors::<f32, 1, 5>::default();
+    let mut phasors = Phasors::<1, 5, f32>::default();
     let mut noise = Noise::new(3);
     for _ in 0..200_000 {
         let v = [f32::from_bits((noise.even() * 4e9) as u32)];
@@ -581,7 +581,7 @@ fn a_measurement_that_cannot_be_is_refused() {
 /// Two channels and two orders at once, as a drive composes them.
 #[test]
 fn channels_and_orders_side_by_side() {
-    type Both = (Phasors<f32, 2, 9>, Phasors<f32, 1, 9>);
+    type Both = (Phasors<2, 9>, Phasors<1, 9>);
     let config = (
         PhasorsConfig::<f32, 2>::new(&CALM, [20.0, 5.0]),
         PhasorsConfig::<f32, 1>::new(&PhasorSettings { order: 2, turns: 4, ..CALM }, [20.0]),
@@ -607,7 +607,7 @@ fn drift_and_scatter_are_those_of_a_line_through_the_blocks() {
     let config = PhasorsConfig::<f64, 1>::new(&PhasorSettings { steadiness: loose, ..CALM }, [20.0]);
     for (rise, up_and_down) in [(0.05, 0.01), (-0.05, 0.01), (0.0, 0.01), (0.002, 0.01)] {
         let mut rig = Rig::new(400.3);
-        let mut phasors = Phasors::<f64, 1, 9>::default();
+        let mut phasors = Phasors::<1, 9, f64>::default();
         while !phasors.is_complete() {
             let (angle, theta) = rig.next();
             let block = ((rig.turned - 1.0) / 8.0).floor().max(0.0);

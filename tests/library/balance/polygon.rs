@@ -55,7 +55,7 @@ fn a_polygon_mirror_is_read() {
         for weight in ["without_weight", "weight"] {
             let samples = samples(&folder.join(format!("{weight}_{number}.csv")));
             let mut tacho = OncePerTurn::new();
-            let mut phasors = Phasors::<f32, 1, 6>::default();
+            let mut phasors = Phasors::<1, 6, f32>::default();
             for (v, mark) in &samples {
                 // seen by sampling: half a sample ago on average
                 if let Some(angle) = tacho.tick(mark.then_some(1 << 31)) {

@@ -14,7 +14,7 @@ const SINGLE: TorqueClasses<f32> = TorqueClasses::<f32>::new::<CLASSES>(LIMIT);
 /// A base of 100 N m.
 const FIXED: TorqueClasses<Fixed> = TorqueClasses::<Fixed>::new::<CLASSES>(LIMIT, 100.0);
 
-type Count<N> = Rainflow<N, CLASSES>;
+type Count<N> = Rainflow<CLASSES, N>;
 
 /// Feeds classes, each for three ticks, as torques in their middle.
 fn counted<N: Classed>(series: &[u8], config: &TorqueClasses<N>, torque: impl Fn(f64) -> N) -> Counts<CLASSES> {

@@ -41,7 +41,7 @@ proptest! {
         prop_assume!(turns <= 16 * cycles);
         let cycle = CycleConfig::new(Cycle { turns, cycles }, PERIOD, Bases::SI);
         let config = (cycle, WaveformConfig::new::<BINS>(cycle, 2));
-        let mut parts = <(Extremes<f32>, Waveform<f32, BINS>)>::default();
+        let mut parts = <(Extremes<f32>, Waveform<BINS>)>::default();
         let mut angle = 0_u32;
         for (step, ticks, speed, torque, disturbed, jump) in stretches {
             if disturbed {

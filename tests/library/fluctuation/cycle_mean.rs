@@ -17,7 +17,7 @@ const BASE: f64 = 200.0;
 const BASES: Bases = Bases::rigid(100.0, BASE);
 const SPEED: f64 = 100.0;
 
-type Mean<N> = CycleMean<N, 64>;
+type Mean<N> = CycleMean<64, N>;
 
 trait Built: Number {
     fn config() -> CycleMeanConfig<Self>;

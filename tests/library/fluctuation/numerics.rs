@@ -51,7 +51,7 @@ proptest! {
         prop_assume!(ratio.0 <= 16 * ratio.1);
         let cycle = CycleConfig::new(Cycle { turns: ratio.0, cycles: ratio.1 }, PERIOD, Bases::SI);
         let config = WaveformConfig::new::<BINS>(cycle, 1);
-        let mut parts = <(Extremes<Fixed>, Waveform<Fixed, BINS>)>::default();
+        let mut parts = <(Extremes<Fixed>, Waveform<BINS, Fixed>)>::default();
         for angle in angles {
             parts.measure(&(cycle, config), angle, Fixed::ONE, &at(Fixed::from_bits(angle as i32 >> 4)));
             if let Some(window) = parts.1.take() {
@@ -106,7 +106,7 @@ fn drift(ticks: u64) -> ([f64; 2], [f64; 2]) {
     let config = (cycle, WaveformConfig::new::<BINS>(cycle, 16));
     let mut turning = Turning::new(150.0);
     let speed = turning.speed();
-    let mut parts = <(Extremes<f32>, Waveform<f32, BINS>)>::default();
+    let mut parts = <(Extremes<f32>, Waveform<BINS>)>::default();
     let mut ends = Vec::new();
     for tick in 0..ticks {
         let (angle, speed) = turning.next();
@@ -148,7 +148,7 @@ fn nothing_drifts_in_a_thousand_million_ticks() {
 fn at_a_standstill_and_to_and_fro_there_is_no_cycle() {
     let cycle = CycleConfig::new(Cycle::TURN, PERIOD, Bases::SI);
     let config = (cycle, WaveformConfig::new::<BINS>(cycle, 1));
-    let mut parts = <(Extremes<f64>, Waveform<f64, BINS>)>::default();
+    let mut parts = <(Extremes<f64>, Waveform<BINS, f64>)>::default();
     let mut feed = |angle: u32, speed: f64| {
         parts.measure(&config, angle, 0.0, &at(speed));
         (parts.0.reading(&cycle), parts.1.take())
@@ -186,7 +186,7 @@ fn at_a_standstill_and_to_and_fro_there_is_no_cycle() {
 fn a_disturbance_costs_what_it_falls_into() {
     let cycle = CycleConfig::new(Cycle::TURN, PERIOD, Bases::SI);
     let config = (cycle, WaveformConfig::new::<BINS>(cycle, 2));
-    let mut parts = <(Extremes<f64>, Waveform<f64, BINS>)>::default();
+    let mut parts = <(Extremes<f64>, Waveform<BINS, f64>)>::default();
     let speed = 1e7 / 4_294_967_296.0 * TAU / PERIOD;
     let mut good = 0;
     for k in 0..20_000_u32 {

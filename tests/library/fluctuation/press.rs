@@ -60,7 +60,7 @@ impl Machine {
         self.advance(&mut phi, &mut speed, PERIOD / 4.0, 80_000);
         let cycle = CycleConfig::new(Cycle::TURN, PERIOD, Bases::SI);
         let config = WaveformConfig::new::<BINS>(cycle, cycles);
-        let mut waveform = Waveform::<f64, BINS>::default();
+        let mut waveform = Waveform::<BINS, f64>::default();
         let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
         loop {
             self.advance(&mut phi, &mut speed, PERIOD / 4.0, 4);

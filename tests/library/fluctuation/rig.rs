@@ -39,9 +39,8 @@ pub const BASES: Bases = Bases::of(&DESIGN, 12_000.0, 250.0);
 const SCREENING: Screening =
     Screening { torque: 3000.0, setpoint: 200.0, innovation: 0.05, frozen_turn: 1.5e-3, max_coast: 150 };
 
-pub type Parts<N> = (Extremes<N>, Waveform<N, BINS>);
-pub type Measured<N> = Drive<N, observer::TwoMassObserver<N>, Parts<N>>;
-pub type Constants<N> = ConfigOf<Drive<N, observer::TwoMassObserver<N>, Parts<N>>>;
+pub type Measured<N> = Drive<N, observer::TwoMassObserver, (), (Extremes, Waveform<BINS>)>;
+pub type Constants<N> = ConfigOf<Measured<N>>;
 
 /// A number that the drive can be built in.
 pub trait Built: Ranked + Summed {

@@ -5,6 +5,7 @@ use driveline::governor::{
     Barred, BarredConfig, Gains, Governor, SpeedGovernor, SpeedGovernorConfig, SymmetricLimitConfig,
 };
 use driveline::machine::{Chain, Cylinder, Damping, Inertia, Length, Stiffness};
+use driveline::number::StateOf;
 use driveline::sample::Estimate;
 use driveline::settings::Bases;
 use proptest::prelude::*;
@@ -119,7 +120,7 @@ fn a_range_is_passed_quickly_and_never_stayed_in() {
         sequence: (),
         filter: (),
     };
-    let mut governor = SpeedGovernor::<f64, Barred<2>>::default();
+    let mut governor = <StateOf<SpeedGovernor<Barred<2>>, f64>>::default();
     let inside = |speed: f64| barred.ranges().iter().any(|r| speed > r[0] + 1e-9 && speed < r[1] - 1e-9);
     let mut go = |setpoint: f64, ticks: usize| {
         let mut dwelt = 0;

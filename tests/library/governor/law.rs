@@ -3,11 +3,11 @@
 use driveline::design::{Actuator, GovernorDesign, LoadFeedForward, Rate, TorqueCurve};
 use driveline::governor::{
     ActiveDamping, ActiveDampingConfig, Curve, CurveConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains,
-    Governor, Limit, Slew, SlewConfig, SpeedGovernor, SpeedGovernorConfig, SpeedGovernorConfigOf, SymmetricLimit,
-    SymmetricLimitConfig, TorqueRange, TorqueRangeConfig,
+    Governor, Limit, Slew, SlewConfig, SpeedGovernor, SpeedGovernorConfig, SymmetricLimit, SymmetricLimitConfig,
+    TorqueRange, TorqueRangeConfig,
 };
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
-use driveline::number::{Fixed, Number};
+use driveline::number::{Fixed, Number, StateOf};
 use driveline::sample::Estimate;
 use driveline::settings::Bases;
 use proptest::prelude::*;
@@ -22,7 +22,7 @@ const DESIGN: GovernorDesign =
 const RAMP: f64 = 40.0;
 
 /// Droop, feed-forward, a curve: a governor of every kind of part.
-type Whole<N> = SpeedGovernor<N, Droop, FeedForward, Curve<3>>;
+type Whole<N> = StateOf<SpeedGovernor<Droop, FeedForward, Curve<3>>, N>;
 
 const CURVE: TorqueCurve<3> = TorqueCurve::through([[0.0, 1500.0], [80.0, TORQUE], [170.0, 2000.0]]);
 
@@ -51,7 +51,7 @@ impl Law {
     }
 }
 
-fn single() -> SpeedGovernorConfigOf<f32, Droop, FeedForward, Curve<3>> {
+fn single() -> <Whole<f32> as Governor<f32>>::Config {
     SpeedGovernorConfig {
         gains: Gains::<f32>::new(&DESIGN, RAMP, Bases::SI),
         shape: DroopConfig::<f32>::new(0.04, SPEED, TORQUE, Bases::SI),
@@ -62,7 +62,7 @@ fn single() -> SpeedGovernorConfigOf<f32, Droop, FeedForward, Curve<3>> {
     }
 }
 
-fn fixed() -> SpeedGovernorConfigOf<Fixed, Droop, FeedForward, Curve<3>> {
+fn fixed() -> <Whole<Fixed> as Governor<Fixed>>::Config {
     SpeedGovernorConfig {
         gains: Gains::<Fixed>::new(&DESIGN, RAMP, BASES),
         shape: DroopConfig::<Fixed>::new(0.04, SPEED, TORQUE, BASES),
@@ -137,7 +137,7 @@ fn the_integral_does_not_wind_up_behind_any_limit() {
             sequence: (),
             filter: (),
         };
-        let mut governor = SpeedGovernor::<f64, (), (), L>::default();
+        let mut governor = SpeedGovernor::<(), (), L, (), (), f64>::default();
         governor.set_setpoint(SPEED);
         for _ in 0..20_000 {
             governor.command(&config, &Estimate::default());
@@ -159,7 +159,7 @@ fn the_integral_does_not_wind_up_behind_any_limit() {
     }
     // At 100 kN m/s a tick is 50 N m.
     let slew = SlewConfig::<f64, _>::new(1e5, SymmetricLimitConfig::<f64>::new(TORQUE, Bases::SI), PERIOD, Bases::SI);
-    assert!((leaves::<Slew<f64, SymmetricLimit>>(slew) - 50.0).abs() < 1e-9);
+    assert!((leaves::<Slew<SymmetricLimit, f64>>(slew) - 50.0).abs() < 1e-9);
 }
 
 #[test]
@@ -173,7 +173,7 @@ fn slew_and_limit_hold_in_every_tick() {
         sequence: (),
         filter: (),
     };
-    let mut governor = SpeedGovernor::<f64, (), (), Slew<f64, TorqueRange>>::default();
+    let mut governor = <StateOf<SpeedGovernor<(), (), Slew<TorqueRange>>, f64>>::default();
     let mut last = 0.0;
     for tick in 0..5000 {
         governor.set_setpoint(if tick / 500 % 2 == 0 { SPEED } else { -SPEED });
@@ -201,8 +201,8 @@ fn with_damping_and_nothing_else_it_is_the_speed_loop() {
     };
     let loop_config =
         SpeedLoopConfig::<f32>::new(&design, SpeedLoopSettings { torque_limit: TORQUE, ramp: RAMP }, Bases::SI);
-    let mut governor = SpeedGovernor::<f32, (), ActiveDamping>::default();
-    let mut speed_loop = SpeedLoop::<_>::default();
+    let mut governor = <StateOf<SpeedGovernor<(), ActiveDamping>, f32>>::default();
+    let mut speed_loop = SpeedLoop::<(), _>::default();
     for tick in 0..4000 {
         let swing = (f64::from(tick) * 0.05).sin() as f32;
         let now =
@@ -238,8 +238,8 @@ fn a_power_limit_is_kept() {
 #[test]
 fn what_is_left_out_takes_no_room() {
     use driveline::governor::Sequencer;
-    assert_eq!(size_of::<SpeedGovernor<f32>>(), 12);
-    assert_eq!(size_of::<SpeedGovernor<f32, Droop, (FeedForward, ActiveDamping), Curve<4>>>(), 12);
-    assert!(size_of::<SpeedGovernor<f32, (), (), SymmetricLimit, Sequencer>>() <= 12 + 12);
-    assert_eq!(size_of::<SpeedGovernorConfigOf<f32>>(), 3 * 4 + 4);
+    assert_eq!(size_of::<SpeedGovernor>(), 12);
+    assert_eq!(size_of::<SpeedGovernor<Droop, (FeedForward, ActiveDamping), Curve<4>>>(), 12);
+    assert!(size_of::<SpeedGovernor<(), (), SymmetricLimit, Sequencer>>() <= 12 + 12);
+    assert_eq!(size_of::<<SpeedGovernor as Governor<f32>>::Config>(), 3 * 4 + 4);
 }

@@ -3,9 +3,10 @@
 use driveline::design::{Actuator, LoadFeedForward, Rate};
 use driveline::governor::{
     Gains, Governor, RunRequest, RunState, Sequencer, SequencerConfig, SpeedGovernor, SpeedGovernorConfig,
-    SpeedGovernorConfigOf, SymmetricLimit, SymmetricLimitConfig, Trip,
+    SymmetricLimit, SymmetricLimitConfig, Trip,
 };
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
+use driveline::number::StateOf;
 use driveline::sample::Estimate;
 use driveline::settings::{Bases, Error, SequencerSettings};
 use proptest::prelude::*;
@@ -23,9 +24,9 @@ const LIMITS: SequencerSettings = SequencerSettings {
     start: 10.0,
 };
 
-type Supervised = SpeedGovernor<f64, (), (), SymmetricLimit, Sequencer>;
+type Supervised = StateOf<SpeedGovernor<(), (), SymmetricLimit, Sequencer>, f64>;
 
-fn config() -> SpeedGovernorConfigOf<f64, (), (), SymmetricLimit, Sequencer> {
+fn config() -> <Supervised as Governor<f64>>::Config {
     let actuator = Actuator { delay: 0.02, lag: 0.02 };
     let design = MACHINE.governor(Rate::every(PERIOD), actuator, 3.0, LoadFeedForward::NONE);
     SpeedGovernorConfig {

@@ -5,6 +5,7 @@ use driveline::governor::{
     Droop, DroopConfig, Gains, Governor, SpeedGovernor, SpeedGovernorConfig, TorqueRange, TorqueRangeConfig,
 };
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
+use driveline::number::StateOf;
 use driveline::sample::Estimate;
 use driveline::settings::Bases;
 use driveline_solver::plant::{Chain, Shaft, Start};
@@ -33,7 +34,7 @@ fn settled(rated: [f64; 2], droop: [f64; 2], load: f64) -> (f64, [f64; 2]) {
     let shaft = Shaft::elastic(stiffness).damping(0.3 * (stiffness * reduced).sqrt());
     let start = Start::Given { twists: vec![0.0], speeds: vec![SPEED; 2] };
     let mut plant = Chain::motor(inertia[0]).shaft(shaft, inertia[1]).start(start).build().unwrap();
-    let mut governors = [SpeedGovernor::<f64, Droop, (), TorqueRange>::default(); 2];
+    let mut governors = [<StateOf<SpeedGovernor<Droop, (), TorqueRange>, f64>>::default(); 2];
     let mut acting = [0.0; 2];
     for (governor, config) in governors.iter_mut().zip(&config) {
         governor.start(config, &Estimate { motor_speed: SPEED, ..Estimate::default() }, 0.0);

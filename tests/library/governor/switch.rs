@@ -3,18 +3,19 @@
 use driveline::design::{Actuator, LoadFeedForward, Rate};
 use driveline::governor::{
     Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Governor, SpeedGovernor, SpeedGovernorConfig,
-    SpeedGovernorConfigOf, SymmetricLimitConfig,
+    SymmetricLimitConfig,
 };
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
+use driveline::number::StateOf;
 use driveline::sample::Estimate;
 use driveline::settings::Bases;
 use proptest::prelude::*;
 
 const MACHINE: TwoMass = TwoMass::new(Inertia(4.4), Inertia(8.0), Stiffness(5.0e4), Damping(66.0));
 
-type Switched = SpeedGovernor<f64, Droop, FeedForward>;
+type Switched = StateOf<SpeedGovernor<Droop, FeedForward>, f64>;
 
-fn config(span: f64, droop: f64, share: f64) -> SpeedGovernorConfigOf<f64, Droop, FeedForward> {
+fn config(span: f64, droop: f64, share: f64) -> <Switched as Governor<f64>>::Config {
     let actuator = Actuator { delay: 0.02, lag: 0.02 };
     SpeedGovernorConfig {
         gains: Gains::<f64>::new(

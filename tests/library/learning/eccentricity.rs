@@ -60,12 +60,7 @@ macro_rules! lifts {
     ($lift:ident, $number:ty, $observer:ident) => {
         /// Lifts 9 t for seven seconds at a speed.
         fn $lift(eccentricity: [f64; 2], speed: f32, case: Case, learns: bool) -> Learnt {
-            type D = Drive<
-                $number,
-                EccentricityObserver<$number, GearedObserver<$observer<$number>>>,
-                (),
-                SpeedLoop<$number>,
-            >;
+            type D = Drive<$number, EccentricityObserver<GearedObserver<$observer>>, SpeedLoop>;
             static DRIVE: ConfigOf<D> = D::configure::<M>();
             let (mut lift, mut noise) = (Lift::new(9_000.0, 12.0), Noise::new(1));
             let mut drive = D::new(&DRIVE, 0);
@@ -190,7 +185,7 @@ fn where_the_sensitivity_is_small_nothing_is_learnt() {
 /// From a record: kept as it is within the bound, else at the bound.
 #[test]
 fn a_kept_eccentricity_is_limited() {
-    type D = Drive<f32, EccentricityObserver<f32, TwoMassObserver<f32>>>;
+    type D = Drive<f32, EccentricityObserver<TwoMassObserver>>;
     let config = D::configure::<M>();
     let mut drive = D::new(&config, 0);
     drive.observer_mut().restore(&CONFIG, [300_000, -400_000]);

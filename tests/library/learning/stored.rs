@@ -120,8 +120,8 @@ fn a_life_is_read_back_by_name() {
     assert_eq!((loaded.damage, loaded.time_above, loaded.largest), (0.125, 3600.5, 1480.0));
 }
 
-type Corrected = Drive<f32, EccentricityObserver<f32, GearedObserver<SemiImplicitObserver<f32>>>, (), SpeedLoop<f32>>;
-type Plain = Drive<f32, GearedObserver<SemiImplicitObserver<f32>>, (), SpeedLoop<f32>>;
+type Corrected = Drive<f32, EccentricityObserver<GearedObserver<SemiImplicitObserver>>, SpeedLoop>;
+type Plain = Drive<f32, GearedObserver<SemiImplicitObserver>, SpeedLoop>;
 
 static BOUND: EccentricityConfig = EccentricityConfig::new(&M::OBSERVER, 0.1 * core::f64::consts::PI / 180.0, 0.4);
 static CORRECTED: ConfigOf<Corrected> = Corrected::configure::<M>();

@@ -38,7 +38,7 @@ macro_rules! lifts {
         /// Holds, lifts for four seconds, lowers for three.
         fn $lift(mass: f64, length: f64, gains: Gains) -> Outcome {
             type M = Hoist<$rate_hz>;
-            type D = Drive<$number, GearedObserver<$observer<$number>>, (), SpeedLoop<$number>>;
+            type D = Drive<$number, GearedObserver<$observer>, SpeedLoop>;
             static SCHEDULE: ScheduleOf<D, 5, 4> = D::schedule::<M, 5, 4>();
             static CONFIG: ConfigOf<D> = D::configure::<M>();
             let (mut config, period) = (CONFIG, 1.0 / f64::from($rate_hz));

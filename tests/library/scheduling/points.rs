@@ -60,8 +60,8 @@ fn a_point_without_its_margin_is_refused() {
 /// The lag of the damping is that of each member: `1 - exp(-w T)` of its own resonance.
 #[test]
 fn the_filters_follow_the_schedule() {
-    type Filters = (SetpointLag<f64>, DampingLag<f64>);
-    type D = Drive<f64, TwoMassObserver<f64>, (), SpeedLoop<f64, Filters>>;
+    type Filters = (SetpointLag, DampingLag);
+    type D = Drive<f64, TwoMassObserver, SpeedLoop<Filters>>;
     let schedule: ScheduleOf<D, 2, 2> = D::schedule::<Winch<2>, 2, 2>();
     let mut config: ConfigOf<D> = D::configure::<Winch<2>>();
     let mut drive = D::new(&config, 0);

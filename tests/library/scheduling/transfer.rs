@@ -47,7 +47,7 @@ macro_rules! is_bumpless {
     ($test:ident, $number:ty, $observer:ident, $resolution:expr) => {
         #[test]
         fn $test() {
-            type D = Drive<$number, $observer<$number>, (), SpeedLoop<$number>>;
+            type D = Drive<$number, $observer, SpeedLoop>;
             static SCHEDULE: ScheduleOf<D, 2, 2> = D::schedule::<Winch, 2, 2>();
             let mut config: ConfigOf<D> = D::configure::<Winch>();
             let mut drive = D::new(&config, 0);
@@ -112,7 +112,7 @@ fn backlash_keeps_its_torque_in_contact_and_its_place_in_the_gap() {
 /// At the points the constants are those of the members.
 #[test]
 fn cells_are_those_of_the_members() {
-    type O = TwoMassObserver<f64>;
+    type O = TwoMassObserver;
     let cells = <O as Scheduled<Winch, f64, 2, 2>>::CELLS;
     for (member, cell) in Winch::MEMBERS.iter().flatten().zip(cells.iter().flatten()) {
         // the compliance is the stiffness' inverse

@@ -71,8 +71,7 @@ fn test<const R: u32>() {
                 governor: SpeedLoopConfig::<$number>::new(&speed_loop, settings(), $bases),
                 balancer: (),
             };
-            let compiled =
-                const { Drive::<$number, $with<$number>, (), SpeedLoop<$number>>::configure::<$machine<R>>() };
+            let compiled = const { Drive::<$number, $with, SpeedLoop>::configure::<$machine<R>>() };
             same(&compiled, &run);
         }};
     }

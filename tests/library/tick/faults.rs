@@ -60,7 +60,7 @@ fn spoil<V>(
     flags: impl Fn(u32) -> Faults,
     mut how: impl FnMut(u32, &mut Sample<V::Number>),
 ) where
-    V: Variant<Number: Scaled, Observer: Copy>,
+    V: Variant<Number: Scaled>,
 {
     let mut rig = rig.clone();
     // Half a second, so that both stretches hold the beat of speed and encoder counts.
@@ -78,7 +78,7 @@ fn spoil<V>(
 
 #[test]
 fn a_torque_that_cannot_be_is_replaced_by_the_last_command() {
-    fn test<V: Variant<Number: Bad, Observer: Copy>>() {
+    fn test<V: Variant<Number: Bad>>() {
         let rig = Rig::<V>::lifting(RATED_SPEED);
         for bad in V::Number::bad() {
             for ticks in [1, 1000] {
@@ -96,7 +96,7 @@ fn a_torque_that_cannot_be_is_replaced_by_the_last_command() {
 
 #[test]
 fn a_torque_at_its_limit_is_believed_and_one_beyond_is_not() {
-    fn test<V: Variant<Number: Scaled, Observer: Copy>>() {
+    fn test<V: Variant<Number: Scaled>>() {
         let rig = Rig::<V>::lifting(RATED_SPEED);
         let limit = 1.67 * TORQUE_LIMIT;
         // To a part in a million, which f32 and fixed point both resolve.
@@ -112,7 +112,7 @@ fn a_torque_at_its_limit_is_believed_and_one_beyond_is_not() {
 
 #[test]
 fn a_set_point_that_cannot_be_leaves_the_last_one_standing() {
-    fn test<V: Variant<Number: Bad, Observer: Copy>>() {
+    fn test<V: Variant<Number: Bad>>() {
         let rig = Rig::<V>::lifting(RATED_SPEED);
         for bad in V::Number::bad() {
             spoil(&rig, &format!("setpoint {bad:?}"), 1000, |_| Faults::SETPOINT, |_, s| s.setpoint = bad);
@@ -127,7 +127,7 @@ fn a_set_point_that_cannot_be_leaves_the_last_one_standing() {
 
 #[test]
 fn both_at_once_are_told_apart() {
-    fn test<V: Variant<Number: Bad, Observer: Copy>>() {
+    fn test<V: Variant<Number: Bad>>() {
         let rig = Rig::<V>::lifting(RATED_SPEED);
         let bad = V::Number::bad()[0];
         let all = Faults::TORQUE | Faults::SETPOINT | Faults::ANGLE_JUMP;
@@ -146,7 +146,7 @@ fn both_at_once_are_told_apart() {
 
 #[test]
 fn an_angle_that_jumps_is_left_out_and_believed_again_when_it_is_back() {
-    fn test<V: Variant<Number: Scaled, Observer: Copy>>() {
+    fn test<V: Variant<Number: Scaled>>() {
         let rig = Rig::<V>::lifting(RATED_SPEED);
         for quarter in [1 << 30, 3 << 30, 2 << 30] {
             for ticks in [1, 5, 140] {
@@ -167,7 +167,7 @@ fn an_angle_that_jumps_is_left_out_and_believed_again_when_it_is_back() {
 
 #[test]
 fn an_angle_that_has_moved_for_ever_is_lost_after_twenty_milliseconds_and_then_taken_as_it_comes() {
-    fn test<V: Variant<Number: Scaled, Observer: Copy>>() {
+    fn test<V: Variant<Number: Scaled>>() {
         let missed = V::RATE_HZ / 67;
         for quarter in [1 << 30, 3 << 30, 2 << 30] {
             let mut rig = Rig::<V>::lifting(RATED_SPEED);
@@ -203,7 +203,7 @@ fn an_angle_that_has_moved_for_ever_is_lost_after_twenty_milliseconds_and_then_t
 
 #[test]
 fn an_encoder_that_freezes_at_rated_speed_is_not_taken_for_a_standing_machine() {
-    fn test<V: Variant<Number: Scaled, Observer: Copy>>() {
+    fn test<V: Variant<Number: Scaled>>() {
         let rig = Rig::<V>::lifting(RATED_SPEED);
         // Frozen at the count that was last believed.
         let frozen = rig.drive.angle();
@@ -235,7 +235,7 @@ fn an_encoder_that_freezes_at_rated_speed_is_not_taken_for_a_standing_machine() 
 /// estimate of the load torque shows what it would take to hold it.
 #[test]
 fn an_encoder_that_freezes_at_creep_speed_looks_like_a_machine_that_is_held() {
-    fn test<V: Variant<Number: Scaled, Observer: Copy>>() {
+    fn test<V: Variant<Number: Scaled>>() {
         let mut rig = Rig::<V>::lifting(5.0);
         let frozen = rig.drive.angle();
         // A quarter of a second, five swings of the observer's poles.
@@ -271,7 +271,7 @@ fn an_encoder_that_freezes_at_creep_speed_looks_like_a_machine_that_is_held() {
 /// Noise of +-8 counts is not a fault: it is within the innovation limit of 64 counts.
 #[test]
 fn a_noisy_angle_raises_no_flag_and_leaves_no_trace() {
-    fn test<V: Variant<Number: Scaled, Observer: Copy>>() {
+    fn test<V: Variant<Number: Scaled>>() {
         let rig = Rig::<V>::lifting(RATED_SPEED);
         let mut random = 1_u32;
         spoil(

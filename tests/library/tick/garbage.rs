@@ -6,7 +6,7 @@ use crate::hoist::{CutAtRope, Exact, Hoist, Of, Reduced, Rigid};
 use driveline::drive::{Config, Drive, Limits};
 use driveline::fault::Faults;
 use driveline::governor::{SpeedLoop, SpeedLoopConfig};
-use driveline::number::Fixed;
+use driveline::number::{Fixed, Part, StateOf};
 use driveline::observer::{GearedObserver, Observer, Stiction};
 use driveline::sample::Sample;
 
@@ -51,16 +51,16 @@ fn next(state: &mut u64) -> u64 {
 }
 
 /// Plays the garbage, then a machine that turns steadily at half of rated speed under a torque of 500 N m.
-fn plays<N: Scaled, O: Observer<N>>(
+fn plays<N: Scaled, O: Part<N, State: Observer<N>>>(
     name: &str,
     rate: u32,
     limits: Limits<N>,
-    observer: O::Config,
+    observer: <StateOf<O, N> as Observer<N>>::Config,
     governor: SpeedLoopConfig<N>,
     garbage: &[(Kind, u32, u64)],
 ) {
     let config = Config { limits, observer, fluctuation: (), governor, balancer: () };
-    let mut drive = Drive::<N, O, (), SpeedLoop<N>>::new(&config, 0);
+    let mut drive = Drive::<N, O, SpeedLoop>::new(&config, 0);
     let mut angle = 0_u32;
     for &(kind, ticks, seed) in garbage {
         let mut state = seed;
@@ -117,7 +117,7 @@ fn plays<N: Scaled, O: Observer<N>>(
 fn both<V, O>(garbage: &[(Kind, u32, u64)])
 where
     V: Variant<Number: Scaled + Stiction, Observer = GearedObserver<O>>,
-    O: Observer<V::Number, Config: Copy>,
+    O: Part<V::Number, State: Observer<V::Number, Config: Copy>>,
 {
     let Config { limits, observer, governor, .. } = V::CONFIG;
     let geared = driveline::observer::GearedConfig { ..*observer };
@@ -137,26 +137,26 @@ proptest! {
 
     #[test]
     fn nothing_poisons_a_single(garbage in kinds()) {
-        both::<Of<Hoist<10000>, Rigid<f32>>, _>(&garbage);
-        both::<Of<CutAtRope<10000>, Exact<f32>>, _>(&garbage);
-        both::<Of<Hoist<10000>, Exact<f32>>, _>(&garbage);
-        both::<Of<Hoist<10000>, Reduced<f32>>, _>(&garbage);
+        both::<Of<Hoist<10000>, f32, Rigid>, _>(&garbage);
+        both::<Of<CutAtRope<10000>, f32, Exact>, _>(&garbage);
+        both::<Of<Hoist<10000>, f32, Exact>, _>(&garbage);
+        both::<Of<Hoist<10000>, f32, Reduced>, _>(&garbage);
     }
 
     #[test]
     fn nothing_poisons_a_fixed(garbage in kinds()) {
-        both::<Of<Hoist<10000>, Rigid<Fixed>>, _>(&garbage);
-        both::<Of<CutAtRope<10000>, Exact<Fixed>>, _>(&garbage);
-        both::<Of<Hoist<10000>, Exact<Fixed>>, _>(&garbage);
-        both::<Of<Hoist<10000>, Reduced<Fixed>>, _>(&garbage);
+        both::<Of<Hoist<10000>, Fixed, Rigid>, _>(&garbage);
+        both::<Of<CutAtRope<10000>, Fixed, Exact>, _>(&garbage);
+        both::<Of<Hoist<10000>, Fixed, Exact>, _>(&garbage);
+        both::<Of<Hoist<10000>, Fixed, Reduced>, _>(&garbage);
     }
 
     #[test]
     fn nothing_poisons_a_slow_drive(garbage in kinds()) {
-        both::<Of<Hoist<1000>, Rigid<f32>>, _>(&garbage);
-        both::<Of<Hoist<1000>, Exact<f32>>, _>(&garbage);
-        both::<Of<Hoist<1000>, Rigid<Fixed>>, _>(&garbage);
-        both::<Of<Hoist<1000>, Reduced<Fixed>>, _>(&garbage);
+        both::<Of<Hoist<1000>, f32, Rigid>, _>(&garbage);
+        both::<Of<Hoist<1000>, f32, Exact>, _>(&garbage);
+        both::<Of<Hoist<1000>, Fixed, Rigid>, _>(&garbage);
+        both::<Of<Hoist<1000>, Fixed, Reduced>, _>(&garbage);
     }
 }
 

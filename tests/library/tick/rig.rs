@@ -88,10 +88,10 @@ macro_rules! for_every_variant {
     ($rate:literal, $test:ident, $($number:ty),+) => {{
         use crate::hoist::{self, CutAtRope, Hoist, Of};
         $(
-        $test::<Of<Hoist<$rate>, hoist::Rigid<$number>>>();
-        $test::<Of<CutAtRope<$rate>, hoist::Exact<$number>>>();
-        $test::<Of<Hoist<$rate>, hoist::Exact<$number>>>();
-        $test::<Of<Hoist<$rate>, hoist::Reduced<$number>>>();
+        $test::<Of<Hoist<$rate>, $number, hoist::Rigid>>();
+        $test::<Of<CutAtRope<$rate>, $number, hoist::Exact>>();
+        $test::<Of<Hoist<$rate>, $number, hoist::Exact>>();
+        $test::<Of<Hoist<$rate>, $number, hoist::Reduced>>();
         )+
     }};
 }
@@ -109,10 +109,7 @@ pub struct Rig<V: Variant> {
     pub setpoint: f64,
 }
 
-impl<V: Variant> Clone for Rig<V>
-where
-    V::Observer: Copy,
-{
+impl<V: Variant> Clone for Rig<V> {
     fn clone(&self) -> Self {
         Rig { plant: self.plant.clone(), drive: self.drive, applied: self.applied, setpoint: self.setpoint }
     }

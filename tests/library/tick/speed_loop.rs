@@ -28,13 +28,13 @@ proptest! {
         errors in prop::collection::vec((-8.0..8.0_f64, -4.0..4.0_f64, -40.0..40.0_f64), 1..200),
     ) {
         let exact_config = SpeedLoopConfig::<f64>::new(&design(), settings(1e9), Bases::SI);
-        let mut exact = SpeedLoop::<_>::default();
+        let mut exact = SpeedLoop::<(), _>::default();
         let single_config = SpeedLoopConfig::<f32>::new(&design(), settings(1e9), Bases::SI);
-        let mut single = SpeedLoop::<_>::default();
+        let mut single = SpeedLoop::<(), _>::default();
         // In fixed point a ramp crosses no more than twice the base in a tick.
         let ramp = 1.9 * BASES.speed * 1e4;
         let fixed_config = SpeedLoopConfig::<Fixed>::new(&design(), settings(ramp), BASES);
-        let mut fixed = SpeedLoop::<_>::default();
+        let mut fixed = SpeedLoop::<(), _>::default();
         for (error, slip, speed) in errors {
             let (motor, load, setpoint) = (speed, speed - slip, speed + error);
             let now = Estimate { motor_speed: motor, load_speed: load, ..Estimate::default() };
@@ -64,7 +64,7 @@ proptest! {
         let config = SpeedLoopConfig::<Fixed>::new(&design(), settings(1.9 * BASES.speed * 1e4), BASES);
         let speed = Fixed::from_bits(motor);
         let now = Estimate { motor_speed: speed, load_speed: speed, ..Estimate::default() };
-        let mut governor = SpeedLoop::<_>::default();
+        let mut governor = SpeedLoop::<(), _>::default();
         // The setpoint's ramp first.
         let mut torque = Fixed::ZERO;
         for _ in 0..ticks + 3 {
@@ -92,7 +92,7 @@ fn the_integral_does_not_wind_up() {
     let (period, limit) = (1e-4, 100.0);
     let settings = SpeedLoopSettings { torque_limit: limit, ramp: 1e9 };
     let config = SpeedLoopConfig::<f64>::new(&design(), settings, Bases::SI);
-    let (mut governor, mut speed, mut top, mut limited) = (SpeedLoop::<_>::default(), 0.0, 0.0_f64, 0);
+    let (mut governor, mut speed, mut top, mut limited) = (SpeedLoop::<(), _>::default(), 0.0, 0.0_f64, 0);
     for _ in 0..60_000 {
         let now = Estimate { motor_speed: speed, load_speed: speed, ..Estimate::default() };
         governor.set_setpoint(RATED_SPEED);
@@ -113,7 +113,7 @@ fn the_integral_does_not_wind_up() {
 /// From the brake to the governor: the first torque is the held one, but for what the first step of the ramp asks for.
 #[test]
 fn from_hold_to_tick_there_is_no_jolt() {
-    fn test<V: Variant<Number: Scaled, Observer: Copy>>() {
+    fn test<V: Variant<Number: Scaled>>() {
         for held in [WEIGHT, -300.0, 0.0] {
             let mut drive = DriveOf::<V>::new(V::CONFIG, 0);
             for _ in 0..100 {
@@ -152,7 +152,7 @@ fn from_hold_to_tick_there_is_no_jolt() {
 /// rig checks).
 #[test]
 fn a_run_up_ends_at_the_set_point() {
-    fn test<V: Variant<Number: Scaled, Observer: Copy>>() {
+    fn test<V: Variant<Number: Scaled>>() {
         let mut rig = Rig::<V>::at_rest();
         let mut top = 0.0_f64;
         for _ in 0..4 * V::RATE_HZ {

@@ -12,7 +12,7 @@ use super::rig::{DriveOf, Scaled, Seen, check, for_every_variant};
 /// A machine that turns steadily and without torque, and a drive that believes it at rest. At 1 kHz it turns by 0.155
 /// rad a tick, three times the innovation limit: no correction that needs an innovation within the limit would ever
 /// catch it.
-fn caught<V: Variant<Number: Scaled, Observer: Copy>>() {
+fn caught<V: Variant<Number: Scaled>>() {
     for speed in [RATED_SPEED, -RATED_SPEED, 30.0] {
         let mut drive = DriveOf::<V>::new(V::CONFIG, 0);
         let turn = speed / f64::from(V::RATE_HZ) / core::f64::consts::TAU * 4_294_967_296.0;

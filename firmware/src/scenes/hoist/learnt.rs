@@ -23,8 +23,8 @@ use crate::scene::{Input, Output};
 
 type M = Hoist<10_000>;
 /// The ramp's setpoint lags by the loop's own time constant, so that a ramp leaves less of a swing.
-type Loop<N> = SpeedLoop<N, SetpointLag<N>>;
-type HoistDrive<N> = Drive<N, EccentricityObserver<N, GearedObserver<SemiImplicitObserver<N>>>, (), Loop<N>>;
+type Loop = SpeedLoop<SetpointLag>;
+type HoistDrive<N> = Drive<N, EccentricityObserver<GearedObserver<SemiImplicitObserver>>, Loop>;
 
 /// The drive with its schedule and learners, at 10 kHz.
 pub type Learnt<N> = Composed<HoistDrive<N>, Follower<N>>;

@@ -1,15 +1,15 @@
 //! A machine file as a scene of campaigns: its plant, a run that its load cycle makes, and its drives.
 
 use driveline::design::SpeedLoopDesign;
-use driveline::drive::{Config, ConfigOf, Drive, Limits};
+use driveline::drive::{Composition, Config, ConfigOf, Drive, Limits};
 use driveline::governor::{SpeedLoop, SpeedLoopConfig};
 use driveline::machine::Losses;
 use driveline::observer::{
-    GearedConfig, GearedObserver, LoadGearConfig, LoadGearObserver, Observer, RigidConfig, RigidObserver,
-    TwoMassConfig, TwoMassObserver,
+    GearedConfig, GearedObserver, LoadGearConfig, LoadGearObserver, RigidConfig, RigidObserver, TwoMassConfig,
+    TwoMassObserver,
 };
-use driveline::sample::Sample;
 use driveline::settings::{Bases, Gear, LoadGear, SpeedLoopSettings};
+use driveline_firmware::scene::composed::OverWords;
 use driveline_firmware::scene::{Input, Output, Scene};
 use driveline_solver::plant::train::{Coordinate, Link, RigidGear, Source, Train};
 use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft, Start};
@@ -206,7 +206,8 @@ impl FileCase {
                 let observer = GearedConfig::<f32, _>::try_new(config, &gear, period, Bases::SI).map_err(sentence)?;
                 let observer =
                     LoadGearConfig::<f32, _>::try_new(observer, &behind, period, Bases::SI).map_err(sentence)?;
-                Ok(Observed::<Geared<TwoMassObserver<f32>>>::boxed(limits, observer, governor))
+                let config = Config { limits, observer, fluctuation: (), governor, balancer: () };
+                Ok(Observed::<Driven<TwoMassObserver>>::boxed(config))
             }
             FileObserver::Rigid => {
                 let share = two.load_inertia / two.total_inertia();
@@ -214,7 +215,8 @@ impl FileCase {
                 let observer = GearedConfig::<f32, _>::try_new(config, &gear, period, Bases::SI).map_err(sentence)?;
                 let observer =
                     LoadGearConfig::<f32, _>::try_new(observer, &behind, period, Bases::SI).map_err(sentence)?;
-                Ok(Observed::<Geared<RigidObserver<f32>>>::boxed(limits, observer, governor))
+                let config = Config { limits, observer, fluctuation: (), governor, balancer: () };
+                Ok(Observed::<Driven<RigidObserver>>::boxed(config))
             }
         }
     }
@@ -276,49 +278,24 @@ fn governor(design: &SpeedLoopDesign, torque_limit: f64, ramp: f64) -> Result<Sp
     SpeedLoopConfig::<f32>::try_new(design, settings, Bases::SI).map_err(|error| error.to_string())
 }
 
-/// An observer between gears with losses.
-type Geared<O> = LoadGearObserver<GearedObserver<O>>;
+/// A drive whose observer lies between gears with losses, with a speed loop.
+type Driven<O> = Drive<f32, LoadGearObserver<GearedObserver<O>>, SpeedLoop>;
 
-/// A drive with an observer and a speed loop.
-type Driven<O> = Drive<f32, O, (), SpeedLoop<f32>>;
-
-/// It with its constants.
-struct Observed<O: Observer<f32>> {
-    drive: Driven<O>,
-    config: ConfigOf<Driven<O>>,
+/// A drive with its constants.
+struct Observed<D: Composition> {
+    drive: D,
+    config: ConfigOf<D>,
 }
 
-impl<O> Observed<O>
-where
-    O: Observer<f32, Config: Clone + 'static> + Clone + 'static,
-{
-    fn boxed(limits: Limits<f32>, observer: O::Config, governor: SpeedLoopConfig<f32>) -> Box<dyn Scene> {
-        let config = Config { limits, observer, fluctuation: (), governor, balancer: () };
-        Box::new(Self { drive: Driven::<O>::new(&config, 0), config })
+impl<D: Composition<Config: Clone + 'static> + Clone + 'static> Observed<D> {
+    fn boxed(config: ConfigOf<D>) -> Box<dyn Scene> {
+        Box::new(Self { drive: D::new(&config, 0), config })
     }
 }
 
-impl<O> Scene for Observed<O>
-where
-    O: Observer<f32, Config: Clone + 'static> + Clone + 'static,
-{
+impl<D: Composition<Config: Clone + 'static> + Clone + 'static> Scene for Observed<D> {
     fn tick(&mut self, input: &Input) -> Output {
-        let [torque, setpoint] = [input.torque, input.setpoint].map(f32::from_bits);
-        let command = if input.flags & Input::RELEASED == 0 {
-            self.drive.hold(&self.config, input.angle, setpoint)
-        } else {
-            self.drive.tick(&self.config, &Sample { angle: input.angle, torque, setpoint })
-        };
-        let estimate = self.drive.estimate(&self.config);
-        Output {
-            torque: command.torque.to_bits(),
-            motor_speed: estimate.motor_speed.to_bits(),
-            shaft_torque: estimate.shaft_torque.to_bits(),
-            load_speed: estimate.load_speed.to_bits(),
-            load_torque: estimate.load_torque.to_bits(),
-            faults: command.faults.bits(),
-            ..Output::default()
-        }
+        self.drive.advance(&self.config, input)
     }
 
     fn copy(&self) -> Option<Box<dyn Scene>> {

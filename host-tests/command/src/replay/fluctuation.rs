@@ -37,7 +37,7 @@ fn irregular(ends: &[f64]) -> f64 {
 pub fn measure(angle: &[f64], [start, period]: [f64; 2], windows: Windows) -> Result<Vec<Windowed>, Error> {
     let cycle = CycleConfig::try_new(Cycle { turns: windows.turns, cycles: 1 }, period, Bases::SI)?;
     let config = WaveformConfig::try_new::<BINS>(cycle, windows.cycles)?;
-    let mut waveform = Waveform::<f64, BINS>::default();
+    let mut waveform = Waveform::<BINS, f64>::default();
     let angle = unwrapped(angle);
     let (mut found, mut last) = (Vec::new(), angle.first().copied().unwrap_or(0.0));
     // when the shaft came into each of the last cycles, in samples

@@ -54,7 +54,7 @@ pub fn readings(
     [start, period]: [f64; 2],
 ) -> Result<Vec<Taken>, PhasorError> {
     let config = PhasorsConfig::<f32, 1>::try_new(settings, [range])?;
-    let mut phasors = Phasors::<f32, 1, EDGES>::default();
+    let mut phasors = Phasors::<1, EDGES, f32>::default();
     let (mut tacho, mut taken, mut marks) = (OncePerTurn::new(), Vec::new(), 0);
     let mut was_lost = true;
     for (at, &value) in vibration.iter().enumerate() {

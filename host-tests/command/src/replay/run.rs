@@ -3,7 +3,7 @@
 use driveline::design::{RigidDesign, TwoMassDesign};
 use driveline::drive::{Config, Drive, Limits};
 use driveline::fault::Faults;
-use driveline::number::{Fixed, Number};
+use driveline::number::{Fixed, Number, Part, StateOf};
 use driveline::observer::{
     GearedConfig, GearedObserver, LoadGearConfig, LoadGearObserver, Observer, RigidConfig, RigidObserver,
     TwoMassConfig, TwoMassObserver,
@@ -93,12 +93,13 @@ pub fn replay(
     macro_rules! course {
         ($number:ty, $observer:ident, $config:expr, $bases:expr, $limits:expr, $units:expr) => {
             match gear {
-                None => run::<$number, $observer<$number>>(&signals, $config, $limits, $units, &mut tick),
+                None => run::<$number, $observer>(&signals, $config, $limits, $units, &mut tick),
                 Some((gear, behind, period)) => {
                     let config = GearedConfig::<$number, _>::try_new($config, gear, *period, $bases)?;
                     let config = LoadGearConfig::<$number, _>::try_new(config, behind, *period, $bases)?;
-                    type Geared = LoadGearObserver<GearedObserver<$observer<$number>>>;
-                    run::<$number, Geared>(&signals, config, $limits, $units, &mut tick)
+                    run::<$number, LoadGearObserver<GearedObserver<$observer>>>(
+                        &signals, config, $limits, $units, &mut tick,
+                    )
                 }
             }
         };
@@ -140,10 +141,16 @@ fn fitting(of: impl Fn(f64, f64) -> Bases, fits: impl Fn(&Bases) -> bool, [torqu
     all.into_iter().find(fits).unwrap_or_else(|| doubled(0, 0))
 }
 
-fn run<N, O>(signals: &Signals, config: O::Config, limits: Limits<N>, units: Units, tick: &mut impl FnMut()) -> Course
+fn run<N, O>(
+    signals: &Signals,
+    config: <StateOf<O, N> as Observer<N>>::Config,
+    limits: Limits<N>,
+    units: Units,
+    tick: &mut impl FnMut(),
+) -> Course
 where
     N: Number + OfReal,
-    O: Observer<N>,
+    O: Part<N, State: Observer<N>>,
 {
     let config = Config { limits, observer: config, fluctuation: (), governor: (), balancer: () };
     let mut drive = Drive::<N, O>::new(&config, 0);
@@ -155,7 +162,8 @@ where
             Some(angle) if first == Some(at) => {
                 // a machine that turns already: the recorded speed, or that of its first two angles
                 let next = signals.angle.get(at + 1).copied().flatten().unwrap_or(angle);
-                let turned = || O::speed_of_turn(&config.observer, N::from_angle(next.wrapping_sub(angle) as i32));
+                let turned =
+                    || <StateOf<O, N>>::speed_of_turn(&config.observer, N::from_angle(next.wrapping_sub(angle) as i32));
                 let recorded = signals.motor_speed.as_ref().and_then(|speed| speed.get(at));
                 let speed = recorded.map_or_else(turned, |speed| N::of_real(speed / units.speed));
                 drive = Drive::new(&config, angle);

@@ -162,7 +162,7 @@ fn design_campaign_and_new_select_the_same_observer() {
     assert!(!shown.contains("ROBUSTNESS") && !shown.contains("SpeedLoopTuning"), "{shown}");
     let project = folder.path().join("axis");
     let written = json(&out(&driveline(&["new", project.to_str().unwrap(), "--machine", axis, "--json"])));
-    assert_eq!(written["observer"], "GearedObserver<TwoMassObserver<Number>>");
+    assert_eq!(written["observer"], "GearedObserver<TwoMassObserver>");
     let mut campaign = Command::new(env!("CARGO_BIN_EXE_lab"));
     let drawn =
         campaign.args(["campaign", axis, "--draws", "2", "--json"]).current_dir(folder.path()).output().unwrap();

@@ -11,8 +11,8 @@ use std::process::{Command, Output as Ended};
 use driveline::configure::{Configure, Machine};
 use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::SpeedLoop;
-use driveline::number::{Fixed, Number};
-use driveline::observer::{GearedObserver, SemiImplicitObserver};
+use driveline::number::Fixed;
+use driveline::observer::{GearedObserver, SemiImplicitObserver, Stiction};
 use driveline_closed_loop::lockstep;
 use driveline_closed_loop::ticks::Ticks;
 use driveline_closed_loop::units::Units;
@@ -31,7 +31,7 @@ use tempfile::TempDir;
 #[path = "export/hoist.rs"]
 pub mod hoist;
 
-type HoistDrive<N> = Drive<N, GearedObserver<SemiImplicitObserver<N>>, (), SpeedLoop<N>>;
+type HoistDrive<N> = Drive<N, GearedObserver<SemiImplicitObserver>, SpeedLoop>;
 
 /// The drive in Rust.
 struct InRust<D: OverWords>(D, ConfigOf<D>);
@@ -44,14 +44,14 @@ impl<D: OverWords> Ticks for InRust<D> {
 
 /// Inputs and outputs of the drive in Rust, in closed loop with the full solver of the hoist: a start with the load
 /// hanging, half a load more, lowering.
-fn run<N: Number>(words: Words) -> Vec<(Input, Output)>
+fn run<N: Stiction>(words: Words) -> Vec<(Input, Output)>
 where
-    HoistDrive<N>: OverWords<Number = N> + Configure<hoist::Hoist, N, Config = ConfigOf<HoistDrive<N>>>,
+    HoistDrive<N>: Configure<hoist::Hoist, N, Config = ConfigOf<HoistDrive<N>>>,
 {
     let machine = scene::machine().unwrap();
     let units = Units::new(words, hoist::Hoist::BASES);
     let config = <HoistDrive<N> as Configure<hoist::Hoist, N>>::CONFIG;
-    let mut drive = InRust(HoistDrive::<N>::at_rest(&config), config);
+    let mut drive = InRust(HoistDrive::<N>::new(&config, 0), config);
     let trace = lockstep::run(&machine, &machine.scenarios[0], &units, hoist::Hoist::RATE_HZ, &mut drive, |_| ());
     let words = trace.unwrap().words;
     assert!(words.len() > 100_000, "{} ticks", words.len());

@@ -18,7 +18,7 @@ use zip::ZipArchive;
 
 use super::export::hoist::Hoist;
 
-type HoistDrive = Drive<f32, GearedObserver<SemiImplicitObserver<f32>>, (), SpeedLoop<f32>>;
+type HoistDrive = Drive<f32, GearedObserver<SemiImplicitObserver>, SpeedLoop>;
 
 pub const MACHINE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../command/machines/hoist.toml");
 

@@ -86,7 +86,7 @@ fn a_project_is_built_for_the_boards_that_qemu_does_not_have() {
         assert!(!said.contains("warning"), "{said}");
     }
     let of_axis = |file: &str| std::fs::read_to_string(place.path().join("generic/src").join(file)).unwrap();
-    assert!(of_axis("lib.rs").contains("GearedObserver<RigidObserver<Number>>"));
+    assert!(of_axis("lib.rs").contains("GearedObserver<RigidObserver>"));
     for constant in ["const TUNING", "const ACTUATOR", "stiffness: Spread::between(0.9, 1.1)"] {
         assert!(of_axis("machine.rs").contains(constant), "{constant}");
     }

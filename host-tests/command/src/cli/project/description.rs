@@ -211,7 +211,7 @@ impl Project {
                 Number::Fixed => "driveline::number::Fixed",
             },
             observer: observers.iter().rev().fold(String::new(), |inner, &outer| match inner.as_str() {
-                "" => format!("{outer}<Number>"),
+                "" => outer.to_owned(),
                 inner => format!("{outer}<{inner}>"),
             }),
             observers: match observers.as_slice() {

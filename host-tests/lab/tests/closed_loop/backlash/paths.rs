@@ -15,7 +15,7 @@ type Mill<N> = Of<BloomingMill, Backlash<N>>;
 fn paths<N, V>(number: impl Fn(f32) -> N) -> [[u32; 2]; 2]
 where
     N: Gap,
-    V: GovernedVariant<Number = N, Observer = BacklashObserver<N>>,
+    V: GovernedVariant<Number = N, Observer = BacklashObserver>,
 {
     let config = &V::CONFIG.observer;
     let mut observer: BacklashObserver<N> = BacklashObserver::at_rest(config, 0, N::ZERO);

@@ -8,7 +8,7 @@ use driveline::governor::{
     BacklashTakeUp, BacklashTakeUpConfig, Gains, Governor, Limit, SpeedGovernor, SpeedGovernorConfig, SymmetricLimit,
     SymmetricLimitConfig,
 };
-use driveline::number::Fixed;
+use driveline::number::{Fixed, StateOf};
 use driveline::sample::Estimate;
 use driveline::settings::Bases;
 use driveline_closed_loop::figures::{deviations, peaks};
@@ -135,7 +135,7 @@ fn carrying(shaft_torque: f64) -> Estimate<f64> {
 
 #[test]
 fn the_torque_builds_up_on_the_driven_flank_alone() {
-    let mut limit = BacklashTakeUp::<f64, SymmetricLimit>::default();
+    let mut limit = BacklashTakeUp::<SymmetricLimit, f64>::default();
     let mut torque = |shaft_torque: f64, wanted: f64| limit.limit(&ROUND, &carrying(shaft_torque), wanted);
     // from the gap, 2 N m a tick on either flank that is driven
     assert_eq!(torque(0.0, 500.0), 10.0);
@@ -153,7 +153,7 @@ fn the_torque_builds_up_on_the_driven_flank_alone() {
 fn the_ramp_waits_for_the_take_up() {
     let gains = Gains { proportional: 50.0, reset: 0.0, ramp: 0.01 };
     let config = SpeedGovernorConfig { gains, shape: (), compensation: (), limit: ROUND, sequence: (), filter: () };
-    let mut governor = SpeedGovernor::<f64, (), (), BacklashTakeUp<f64, SymmetricLimit>>::default();
+    let mut governor = <StateOf<SpeedGovernor<(), (), BacklashTakeUp<SymmetricLimit>>, f64>>::default();
     governor.start(&config, &carrying(0.0), 0.0);
     governor.set_setpoint(5.0);
     for _ in 0..1000 {

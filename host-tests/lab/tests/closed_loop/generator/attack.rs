@@ -8,10 +8,10 @@ use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::governor::{
     AccelerationFeedback, AccelerationFeedbackConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains,
     Governor, MovingAverage, MovingAverageConfig, RunRequest, RunState, Sequencer, SequencerConfig, Slew, SlewConfig,
-    SpeedGovernor, SpeedGovernorConfig, SpeedGovernorConfigOf, SymmetricLimit, SymmetricLimitConfig,
+    SpeedGovernor, SpeedGovernorConfig, SymmetricLimit, SymmetricLimitConfig,
 };
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass as Machine};
-use driveline::number::{Fixed, Number};
+use driveline::number::{Fixed, Number, StateOf};
 use driveline::observer::{TwoMassConfig, TwoMassObserver};
 use driveline::sample::{Estimate, Sample};
 use driveline::settings::{Bases, Screening, SequencerSettings};
@@ -53,23 +53,10 @@ const MODES: SequencerSettings = SequencerSettings {
 };
 
 /// A governor of every part that adds, delays or limits.
-type Whole<N> = SpeedGovernor<
-    N,
-    Droop,
-    (FeedForward, AccelerationFeedback),
-    Slew<N, SymmetricLimit>,
-    Sequencer,
-    MovingAverage<N, 32>,
->;
-type Attacked<N> = Drive<N, TwoMassObserver<N>, (), Whole<N>>;
-type Constants<N> = SpeedGovernorConfigOf<
-    N,
-    Droop,
-    (FeedForward, AccelerationFeedback),
-    Slew<N, SymmetricLimit>,
-    Sequencer,
-    MovingAverage<N, 32>,
->;
+type Whole =
+    SpeedGovernor<Droop, (FeedForward, AccelerationFeedback), Slew<SymmetricLimit>, Sequencer, MovingAverage<32>>;
+type Attacked<N> = Drive<N, TwoMassObserver, Whole>;
+type Constants<N> = <StateOf<Whole, N> as Governor<N>>::Config;
 
 /// A number with its constants: two governors to switch between, with a slew of the torque (N m/s).
 trait Wired: Number {
@@ -164,14 +151,13 @@ fn act() -> impl Strategy<Value = Act> {
 /// Runs a drive through it all.
 fn attack<N: Wired>(acts: &[Act]) -> Result<(), TestCaseError> {
     let [torque_unit, speed_unit] = N::UNIT;
-    let configs: [ConfigOf<Drive<N, TwoMassObserver<N>, (), Whole<N>>>; 2] =
-        N::governors(20.0 * TORQUE).map(|governor| Config {
-            limits: N::limits(),
-            observer: N::observer(),
-            fluctuation: (),
-            governor,
-            balancer: (),
-        });
+    let configs: [ConfigOf<Attacked<N>>; 2] = N::governors(20.0 * TORQUE).map(|governor| Config {
+        limits: N::limits(),
+        observer: N::observer(),
+        fluctuation: (),
+        governor,
+        balancer: (),
+    });
     // A unit in the last place of what the words hold.
     let most = N::of(TORQUE * (1.0 + 1e-6) / torque_unit);
     let screened = N::of(SCREENING.torque * (1.0 + 1e-6) / torque_unit);
@@ -330,10 +316,10 @@ fn steady<N: Wired>(changes: &[(Change, u8)]) -> Result<(), TestCaseError> {
     let [torque_unit, speed_unit] = N::UNIT;
     // A slew that hides nothing, twice the rated torque in a tick.
     let configs = N::governors(4e3 * TORQUE);
-    let mut governor = Whole::<N>::default();
+    let mut governor = <StateOf<Whole, N>>::default();
     let (mut chosen, mut setpoint, mut tick) = (0, 150.0, 0_u32);
     let mut last = 0.0;
-    let mut run = |governor: &mut Whole<N>, chosen: usize, setpoint: f64| {
+    let mut run = |governor: &mut StateOf<Whole, N>, chosen: usize, setpoint: f64| {
         let swing = 1500.0 * (f64::from(tick) / 32.0 * core::f64::consts::TAU).sin();
         tick += 1;
         let now = Estimate {

@@ -68,7 +68,7 @@ fn recording(design: &TwoMassDesign, ticks: usize) -> Vec<Recorded> {
 /// the last bit.
 #[test]
 fn with_the_exact_step_it_is_the_drive() {
-    type Observer = GearedObserver<TwoMassObserver<f64>>;
+    type Observer = GearedObserver<TwoMassObserver>;
     let design = design(10_000);
     let screening = Screening { torque: 1e4, setpoint: 1e3, innovation: 0.5, frozen_turn: 0.5, max_coast: 200 };
     let config: ConfigOf<Drive<f64, Observer>> = Config {

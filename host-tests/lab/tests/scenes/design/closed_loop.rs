@@ -211,10 +211,10 @@ fn settles<O: Observer<f64>>(scene: &Scene, known: &O::Config, gain: f64, late: 
     let mut eye = O::at_rest(known, 0, 0.0);
     let mut command: Box<dyn FnMut(&Estimate<f64>) -> f64> = if speed_loop.damping_lag > 0.0 {
         let law = law.with_filter(DampingLagConfig::<f64>::new(speed_loop.damping_lag, *period, Bases::SI));
-        let mut governor = SpeedLoop::<f64, DampingLag<f64>>::default();
+        let mut governor = SpeedLoop::<DampingLag<f64>, f64>::default();
         Box::new(move |estimate| governor.command(&law, estimate))
     } else {
-        let mut governor = SpeedLoop::<f64>::default();
+        let mut governor = SpeedLoop::<(), f64>::default();
         Box::new(move |estimate| governor.command(&law, estimate))
     };
     let mut acting = VecDeque::from(vec![0.0; late]);

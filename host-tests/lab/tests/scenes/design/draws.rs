@@ -8,8 +8,8 @@ use driveline::design::{
     Actuator, ClosedLoop, Disturbance, Encoder, LoopObserver, Plant, Rate, Robustness, SpeedLoopDesign,
     SpeedLoopTuning, Spread, Tolerance,
 };
-use driveline::drive::Composition;
 use driveline::machine::{Chain, Damping, Inertia, Stiffness, TwoMass};
+use driveline::number::{Number, Part};
 use driveline_firmware::scene::FromConfig;
 use driveline_firmware::scenes::{
     balanced_fan, belt_conveyor, blooming_mill, converter, crane_travel, fan, flexible, gear_drive, grinding_spindle,
@@ -116,13 +116,14 @@ trait Looped<M> {
     const LOOP: (LoopPart, LoopPart);
 }
 
-impl<M, N, O, F, G, B> Looped<M> for driveline::drive::Drive<N, O, F, G, B>
+impl<M, N, O, G, F, B> Looped<M> for driveline::drive::Drive<N, O, G, F, B>
 where
     M: Machine,
-    N: driveline::number::Number,
-    O: Configure<M, N>,
-    G: Configure<M, N>,
-    Self: Composition,
+    N: Number,
+    O: Configure<M, N> + Part<N>,
+    G: Configure<M, N> + Part<N>,
+    F: Part<N>,
+    B: Part<N>,
 {
     const LOOP: (LoopPart, LoopPart) = (O::LOOP, G::LOOP);
 }

@@ -80,7 +80,7 @@ impl<D: FnMut(&Input) -> Output> Ticks for Faulty<D> {
 
 /// Rms error of the shaft torque in % of its peak, in the run that counts.
 fn error<const WHAT: u32>(fault: Fault) -> f64 {
-    type Governed = Drive<f32, TwoMassObserver<f32>, (), SpeedLoop<f32>>;
+    type Governed = Drive<f32, TwoMassObserver, SpeedLoop>;
     let machine = spindle::machine().unwrap();
     let config = Governed::configure::<Stated<WHAT>>();
     let mut drive = Governed::new(&config, 0);

@@ -44,8 +44,8 @@ fn copy_flash(from: &mut dyn Scene, to: &mut dyn Scene) {
 #[test]
 fn the_damage_is_that_of_the_whole_count_and_survives_a_power_cut() {
     let (mut scene, torques) = swung();
-    let config = <Rainflow<f32, 128> as Configure<StripMill, f32>>::CONFIG;
-    let mut count = Rainflow::<f32, 128>::default();
+    let config = <Rainflow<128> as Configure<StripMill, f32>>::CONFIG;
+    let mut count = Rainflow::<128, f32>::default();
     for &shaft_torque in &torques {
         count.measure(&config, 0, 0.0, &Estimate { shaft_torque, ..Estimate::default() });
     }

@@ -45,7 +45,7 @@ fn slewed<N: Number>(
     of: impl Fn(N) -> f64,
 ) -> f64 {
     let estimate = Estimate::default();
-    let mut slew = Slew::<N, SymmetricLimit>::default();
+    let mut slew = Slew::<SymmetricLimit, N>::default();
     slew.start(&step, &estimate, to(WEIGHT / 0.94));
     factor(|| of(slew.limit(&step, &estimate, to(WEIGHT / 0.94 + CHANGE))))
 }

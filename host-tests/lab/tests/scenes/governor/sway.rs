@@ -8,7 +8,7 @@ use driveline::design::{Error, InputShaperDesign};
 use driveline::drive::{Composition, ConfigOf, Drive};
 use driveline::governor::{Governor, InputShaper, InputShaperConfig};
 use driveline::machine::Length;
-use driveline::number::{Fixed, Number};
+use driveline::number::{Fixed, Number, Part};
 use driveline::observer::SemiImplicitObserver;
 use driveline::sample::{Estimate, Sample};
 use driveline::scheduling::ShaperSlots;
@@ -63,7 +63,7 @@ impl Crane {
 /// the whole run, and that of a period from `after` (s) behind the stop's beginning on.
 fn stop<D: Ticks>(config: &ConfigOf<D>, crane: &Crane, after: f64) -> [f64; 2] {
     let mut plant = crane.plant();
-    let mut drive = D::at_rest(config);
+    let mut drive = D::new(config, 0);
     let mut reported = 0.0;
     let mut noise = 12_345_u32;
     let [mut most, mut left] = [0.0_f64; 2];
@@ -97,17 +97,12 @@ fn stop<D: Ticks>(config: &ConfigOf<D>, crane: &Crane, after: f64) -> [f64; 2] {
 
 /// A drive in SI units.
 trait Ticks: Composition {
-    fn at_rest(config: &ConfigOf<Self>) -> Self;
     fn next(&mut self, config: &ConfigOf<Self>, angle: u32, torque: f64, setpoint: f64) -> f64;
 }
 
 macro_rules! ticks {
     ($number:ident, $bases:expr) => {
-        impl<G: Governor<$number>> Ticks for Drive<$number, SemiImplicitObserver<$number>, (), G> {
-            fn at_rest(config: &ConfigOf<Self>) -> Self {
-                Drive::new(config, 0)
-            }
-
+        impl<G: Part<$number, State: Governor<$number>>> Ticks for Drive<$number, SemiImplicitObserver, G> {
             fn next(&mut self, config: &ConfigOf<Self>, angle: u32, torque: f64, setpoint: f64) -> f64 {
                 let [torque, setpoint] = [number!($number, torque, $bases.0), number!($number, setpoint, $bases.1)];
                 self.tick(config, &Sample { angle, torque, setpoint }).torque.to_real() * $bases.0
@@ -126,9 +121,9 @@ macro_rules! number {
 ticks!(f32, (1.0, 1.0));
 ticks!(Fixed, (StiffTravel::BASES.torque, StiffTravel::BASES.speed));
 
-type Driven<N, G> = Drive<N, SemiImplicitObserver<N>, (), G>;
-type Zvd<N> = Driven<N, InputShaper<N, Loop<N>, SLOTS>>;
-type Zv = Driven<f32, InputShaper<f32, Loop<f32>, 16, 2>>;
+type Driven<N, G> = Drive<N, SemiImplicitObserver, G>;
+type Zvd<N> = Driven<N, InputShaper<Loop, SLOTS>>;
+type Zv = Driven<f32, InputShaper<Loop, 16, 2>>;
 
 fn configured<M: Machine, N: Number, D: Composition + Configure<M, N, Config = ConfigOf<D>>>() -> ConfigOf<D> {
     D::CONFIG
@@ -142,7 +137,7 @@ fn residual<D: Ticks>(config: &ConfigOf<D>, crane: &Crane, after: f64) -> f64 {
 /// the described crane and 40 draws of it 0.2 to 1.5 %.
 #[test]
 fn a_shaped_stop_leaves_less_than_a_fiftieth_of_the_swing() {
-    let plain = configured::<StiffTravel, f32, Driven<f32, Loop<f32>>>();
+    let plain = configured::<StiffTravel, f32, Driven<f32, Loop>>();
     let shaped = configured::<StiffTravel, f32, Zvd<f32>>();
     let fixed = configured::<StiffTravel, Fixed, Zvd<Fixed>>();
     let two = configured::<StiffTravel, f32, Zv>();
@@ -150,7 +145,7 @@ fn a_shaped_stop_leaves_less_than_a_fiftieth_of_the_swing() {
     let drawn = Crane { rope: 9.4, load: 1_500.0, bridge: 1.05, resistance: 1.2, torque: 0.97 };
     for crane in [NOMINAL, Crane { rope: 9.0, ..NOMINAL }, longer, drawn] {
         // the plain ramp ends after 3 s, the third part's after 9.4 s; the loop follows 1 s later
-        let before = residual::<Driven<f32, Loop<f32>>>(&plain, &crane, 4.0);
+        let before = residual::<Driven<f32, Loop>>(&plain, &crane, 4.0);
         let after = residual::<Zvd<f32>>(&shaped, &crane, 10.4);
         assert!(after < 0.02 * before, "{crane:?}: {after} of {before}");
         if crane.rope == NOMINAL.rope {
@@ -172,11 +167,11 @@ fn a_shaped_stop_leaves_less_than_a_fiftieth_of_the_swing() {
 /// to 0.6 % at 12 m, where the slot of 10 m leaves 4.2 % at 8 m.
 #[test]
 fn a_shaped_stop_follows_the_length_of_the_rope() {
-    let plain = configured::<StiffTravel, f32, Driven<f32, Loop<f32>>>();
+    let plain = configured::<StiffTravel, f32, Driven<f32, Loop>>();
     let mut shaped = configured::<StiffTravel, f32, Zvd<f32>>();
     for rope in [8.0, 9.0, 10.0, 11.0, 12.0] {
         let crane = Crane { rope, ..NOMINAL };
-        let before = residual::<Driven<f32, Loop<f32>>>(&plain, &crane, 4.0);
+        let before = residual::<Driven<f32, Loop>>(&plain, &crane, 4.0);
         // the third part's ramp ends after 10.0 s of the longest rope
         shaped.governor.slot = BY_ROPE.at(rope as f32);
         let after = residual::<Zvd<f32>>(&shaped, &crane, 11.1);
@@ -246,7 +241,7 @@ fn against_the_closed_form<const LINE: usize, const PARTS: usize>(damping: f64) 
     let config = InputShaperConfig::<f64, ()>::new(&design, 16, 2.0, (), 1e-3, Bases::SI);
     // what whole ticks of a slot make of the delay
     let design = InputShaperDesign { delay: 16e-3 * f64::from(config.slot), ..design };
-    let mut shaper = InputShaper::<f64, Probe, LINE, PARTS>::default();
+    let mut shaper = InputShaper::<Probe, LINE, PARTS, f64>::default();
     let (mut ramped, mut target, mut wanted, mut seed) = (0.0_f64, 0.0, 0.0, 7_u32);
     let (mut plain, mut shaped) = (Vec::new(), Vec::new());
     for tick in 0..40_000_u32 {
@@ -295,7 +290,7 @@ fn any_course_of_the_setpoint_is_shaped_as_the_closed_form_says() {
 #[test]
 fn a_start_at_a_speed_is_without_a_jump() {
     let config = InputShaperConfig::<f64, ()>::new(&InputShaperDesign::new(1.0, 0.0), 16, 2.0, (), 1e-3, Bases::SI);
-    let mut shaper = InputShaper::<f64, Probe, 32>::default();
+    let mut shaper = InputShaper::<Probe, 32, 3, f64>::default();
     shaper.start(&config, &Estimate { motor_speed: 1.0, ..Estimate::default() }, 0.0);
     let down: Vec<f64> = (0..7000).map(|_| shaper.command(&config, &Estimate::default())).collect();
     // a quarter, a half, a quarter, each within half a second

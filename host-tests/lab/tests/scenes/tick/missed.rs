@@ -2,10 +2,10 @@
 
 use std::io;
 
-use driveline::drive::{ConfigOf, Drive, MADE_UP};
+use driveline::drive::{Composition, ConfigOf, Drive, MADE_UP};
 use driveline::fault::Faults;
 use driveline::governor::Governor;
-use driveline::number::{Fixed, Number};
+use driveline::number::{Fixed, Number, Part};
 use driveline::observer::Observer;
 use driveline::sample::{Command, Sample};
 use driveline_closed_loop::figures::{deviations, peaks};
@@ -21,14 +21,9 @@ use driveline_lab::drivetrains;
 use driveline_solver::noise::Noise;
 
 /// The drive of a variant, of whose ticks some do not run.
-struct Missing<N, O, G>
-where
-    N: Number + 'static,
-    O: Observer<N, Config: 'static> + 'static,
-    G: Governor<N, Config: 'static> + 'static,
-{
-    drive: Drive<N, O, (), G>,
-    config: &'static ConfigOf<Drive<N, O, (), G>>,
+struct Missing<D: Composition<Config: 'static>> {
+    drive: D,
+    config: &'static ConfigOf<D>,
     noise: Noise,
     /// Probability that a tick does not run.
     share: f64,
@@ -39,15 +34,10 @@ where
     counted: [u32; 2],
 }
 
-impl<N, O, G> Missing<N, O, G>
-where
-    N: Number + 'static,
-    O: Observer<N, Config: 'static> + 'static,
-    G: Governor<N, Config: 'static> + 'static,
-{
-    fn new(config: &'static ConfigOf<Drive<N, O, (), G>>, share: f64, made_up: bool) -> Self {
+impl<D: Composition<Config: 'static>> Missing<D> {
+    fn new(config: &'static ConfigOf<D>, share: f64, made_up: bool) -> Self {
         Missing {
-            drive: Drive::<N, O, (), G>::new(config, 0),
+            drive: D::new(config, 0),
             config,
             noise: Noise::new(7),
             share,
@@ -59,14 +49,9 @@ where
     }
 }
 
-impl<N, O, G> Ticks for Missing<N, O, G>
-where
-    N: Number + 'static,
-    O: Observer<N, Config: 'static> + 'static,
-    G: Governor<N, Config: 'static> + 'static,
-{
+impl<D: Composition<Config: 'static>> Ticks for Missing<D> {
     fn tick(&mut self, input: &Input) -> io::Result<Output> {
-        let word = N::from_word;
+        let word = D::Number::from_word;
         let released = input.flags & Input::RELEASED != 0;
         if released && 0.5 * (self.noise.uniform() + 1.0) < self.share {
             self.missed += 1;
@@ -98,12 +83,10 @@ where
 }
 
 /// Rms errors of shaft torque and load torque, over their peaks, and of load speed, over rated, in the counted runs.
-fn errors<V, N, O, G>(machine: &Machine, words: Words, share: f64, made_up: bool) -> [f64; 3]
+fn errors<V, D>(machine: &Machine, words: Words, share: f64, made_up: bool) -> [f64; 3]
 where
-    V: Constants<Scene: FromConfig<Drive = Drive<N, O, (), G>>>,
-    N: Number + 'static,
-    O: Observer<N, Config: 'static> + 'static,
-    G: Governor<N, Config: 'static> + 'static,
+    V: Constants<Scene: FromConfig<Drive = D>>,
+    D: Composition<Config: 'static> + 'static,
 {
     let units = Units::new(words, machine.bases);
     let mut counted = [0; 2];
@@ -112,7 +95,7 @@ where
         .iter()
         .filter(|scenario| scenario.counted)
         .map(|scenario| {
-            let mut drive = Missing::<N, O, G>::new(V::CONFIG, share, made_up);
+            let mut drive = Missing::<D>::new(V::CONFIG, share, made_up);
             let trace = run(machine, scenario, &units, V::RATE_HZ, &mut drive, |_| ()).unwrap();
             counted = [counted[0] + drive.counted[0], counted[1] + drive.counted[1]];
             trace
@@ -129,16 +112,14 @@ where
     errors
 }
 
-fn test<V, N, O, G>(machine: &Machine, words: Words)
+fn test<V, D>(machine: &Machine, words: Words)
 where
-    V: Constants<Scene: FromConfig<Drive = Drive<N, O, (), G>>>,
-    N: Number + 'static,
-    O: Observer<N, Config: 'static> + 'static,
-    G: Governor<N, Config: 'static> + 'static,
+    V: Constants<Scene: FromConfig<Drive = D>>,
+    D: Composition<Config: 'static> + 'static,
 {
-    let nominal = errors::<V, N, O, G>(machine, words, 0.0, true);
-    let overlooked = errors::<V, N, O, G>(machine, words, 0.001, false);
-    let made_up = errors::<V, N, O, G>(machine, words, 0.001, true);
+    let nominal = errors::<V, D>(machine, words, 0.0, true);
+    let overlooked = errors::<V, D>(machine, words, 0.001, false);
+    let made_up = errors::<V, D>(machine, words, 0.001, true);
     for k in 0..3 {
         // the project's target; a gap is seen by the estimates as long as it lasts, a thousandth of the time
         assert!(made_up[k] <= 1.2 * nominal[k], "{} {k}: {made_up:?} {nominal:?}", V::NAME);
@@ -150,15 +131,15 @@ where
 #[test]
 fn a_thousandth_of_the_ticks_missed_leaves_the_hoists_errors() {
     let machine = drivetrains::hoist::machine().unwrap();
-    test::<Of<Hoist<10_000>, hoist::Reduced<f32>>, _, _, _>(&machine, Words::Single);
-    test::<Of<Hoist<10_000>, hoist::Reduced<Fixed>>, _, _, _>(&machine, Words::Fixed);
+    test::<Of<Hoist<10_000>, hoist::Reduced<f32>>, _>(&machine, Words::Single);
+    test::<Of<Hoist<10_000>, hoist::Reduced<Fixed>>, _>(&machine, Words::Fixed);
 }
 
 #[test]
 fn a_thousandth_of_the_ticks_missed_leaves_the_strip_mills_errors() {
     let machine = drivetrains::strip_mill::machine().unwrap();
-    test::<Of<StripMill, strip_mill::SemiImplicit<f32>>, _, _, _>(&machine, Words::Single);
-    test::<Of<StripMill, strip_mill::SemiImplicit<Fixed>>, _, _, _>(&machine, Words::Fixed);
+    test::<Of<StripMill, strip_mill::SemiImplicit<f32>>, _>(&machine, Words::Single);
+    test::<Of<StripMill, strip_mill::SemiImplicit<Fixed>>, _>(&machine, Words::Fixed);
 }
 
 /// A motor that turns steadily: whatever the gap, the estimate of its speed stands, and a gap beyond the limit of ticks
@@ -167,10 +148,10 @@ fn a_thousandth_of_the_ticks_missed_leaves_the_strip_mills_errors() {
 fn a_gap_of_any_length_leaves_the_speed() {
     fn gap<V, N, O, G>(base: f64)
     where
-        V: Constants<Scene: FromConfig<Drive = Drive<N, O, (), G>>>,
+        V: Constants<Scene: FromConfig<Drive = Drive<N, O, G>>>,
         N: Number + 'static,
-        O: Observer<N, Config: 'static> + 'static,
-        G: Governor<N, Config: 'static> + 'static,
+        O: Part<N, State: Observer<N, Config: 'static>> + 'static,
+        G: Part<N, State: Governor<N, Config: 'static>> + 'static,
     {
         let config = V::CONFIG;
         const SPEED: f64 = 30.0;
@@ -178,7 +159,7 @@ fn a_gap_of_any_length_leaves_the_speed() {
             |tick: u32| (SPEED * f64::from(tick) * 1e-4 / core::f64::consts::TAU * 4_294_967_296.0) as u64 as u32;
         let most = config.limits.max_coast;
         for missed in [1, MADE_UP, MADE_UP + 1, most, most + 1, u32::MAX] {
-            let mut drive = Drive::<N, O, (), G>::new(config, 0);
+            let mut drive = Drive::<N, O, G>::new(config, 0);
             let sample = |tick| Sample { angle: turn(tick), torque: N::ZERO, setpoint: N::ZERO };
             for tick in 0..2_000 {
                 drive.tick(config, &sample(tick));

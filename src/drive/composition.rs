@@ -1,0 +1,152 @@
+//! A drive by its type alone: number, constants, parts and ticks.
+
+use super::{Config, Drive};
+use crate::balancing::Balancer;
+use crate::fault::Faults;
+use crate::fluctuation::Fluctuation;
+use crate::governor::Governor;
+use crate::number::{Number, Part, StateOf};
+use crate::observer::Observer;
+use crate::sample::{Command, Estimate, Sample};
+
+/// A drive of any parts, for generic code such as [`Axis`](crate::axis::Axis): its number, its constants, the states
+/// of its parts, and its ticks.
+pub trait Composition: Sized {
+    /// The number that it calculates with.
+    type Number: Number;
+    /// Its constants.
+    type Config;
+    /// State of its observer.
+    type Observer: Observer<Self::Number>;
+    /// State of its governor.
+    type Governor: Governor<Self::Number>;
+    /// State of the fluctuation's measurement.
+    type Fluctuation: Fluctuation<Self::Number>;
+    /// State of its balancer.
+    type Balancer: Balancer<Self::Number>;
+
+    /// As [`Drive::new`].
+    fn new(config: &Self::Config, angle: u32) -> Self;
+    /// As [`Drive::tick`].
+    fn tick(&mut self, config: &Self::Config, sample: &Sample<Self::Number>) -> Command<Self::Number>;
+    /// As [`Drive::tick_after`].
+    fn tick_after(
+        &mut self,
+        config: &Self::Config,
+        sample: &Sample<Self::Number>,
+        missed: u32,
+    ) -> Command<Self::Number>;
+    /// As [`Drive::make_up`].
+    fn make_up(&mut self, config: &Self::Config, torque: Self::Number, missed: u32) -> Faults;
+    /// As [`Drive::coast`].
+    fn coast(&mut self, config: &Self::Config, torque: Self::Number, setpoint: Self::Number) -> Command<Self::Number>;
+    /// As [`Drive::hold`].
+    fn hold(&mut self, config: &Self::Config, angle: u32, torque: Self::Number) -> Command<Self::Number>;
+    /// As [`Drive::engage`].
+    fn engage(&mut self, config: &Self::Config);
+    /// As [`Drive::switch`].
+    fn switch(&mut self, from: &Self::Config, to: &Self::Config);
+    /// As [`Drive::vibration`].
+    fn vibration(&mut self, config: &Self::Config, vibration: &VibrationOf<Self>);
+    /// As [`Drive::vibration_missing`].
+    fn vibration_missing(&mut self, faults: Faults);
+    /// As [`Drive::estimate`].
+    fn estimate(&self, config: &Self::Config) -> Estimate<Self::Number>;
+    /// As [`Drive::angle`].
+    fn angle(&self) -> u32;
+    /// As [`Drive::is_lost`].
+    fn is_lost(&self) -> bool;
+}
+
+/// The constants of a drive, from its type.
+pub type ConfigOf<D> = <D as Composition>::Config;
+
+/// The samples of the vibration in a tick, from the type of the drive.
+pub type VibrationOf<D> = <<D as Composition>::Balancer as Balancer<<D as Composition>::Number>>::Vibration;
+
+impl<N, O, G, F, B, const SEAL: i32> Composition for Drive<N, O, G, F, B, SEAL>
+where
+    N: Number,
+    O: Part<N, State: Observer<N>>,
+    G: Part<N, State: Governor<N>>,
+    F: Part<N, State: Fluctuation<N>>,
+    B: Part<N, State: Balancer<N>>,
+{
+    type Number = N;
+    type Config = Config<
+        N,
+        <O::State as Observer<N>>::Config,
+        <G::State as Governor<N>>::Config,
+        <F::State as Fluctuation<N>>::Config,
+        <B::State as Balancer<N>>::Config,
+    >;
+    type Observer = StateOf<O, N>;
+    type Governor = StateOf<G, N>;
+    type Fluctuation = StateOf<F, N>;
+    type Balancer = StateOf<B, N>;
+
+    #[inline(always)]
+    fn new(config: &Self::Config, angle: u32) -> Self {
+        Drive::new(config, angle)
+    }
+
+    #[inline(always)]
+    fn tick(&mut self, config: &Self::Config, sample: &Sample<N>) -> Command<N> {
+        Drive::tick(self, config, sample)
+    }
+
+    #[inline(always)]
+    fn tick_after(&mut self, config: &Self::Config, sample: &Sample<N>, missed: u32) -> Command<N> {
+        Drive::tick_after(self, config, sample, missed)
+    }
+
+    #[inline(always)]
+    fn make_up(&mut self, config: &Self::Config, torque: N, missed: u32) -> Faults {
+        Drive::make_up(self, config, torque, missed)
+    }
+
+    #[inline(always)]
+    fn coast(&mut self, config: &Self::Config, torque: N, setpoint: N) -> Command<N> {
+        Drive::coast(self, config, torque, setpoint)
+    }
+
+    #[inline(always)]
+    fn hold(&mut self, config: &Self::Config, angle: u32, torque: N) -> Command<N> {
+        Drive::hold(self, config, angle, torque)
+    }
+
+    #[inline(always)]
+    fn engage(&mut self, config: &Self::Config) {
+        Drive::engage(self, config);
+    }
+
+    #[inline(always)]
+    fn switch(&mut self, from: &Self::Config, to: &Self::Config) {
+        Drive::switch(self, from, to);
+    }
+
+    #[inline(always)]
+    fn vibration(&mut self, config: &Self::Config, vibration: &VibrationOf<Self>) {
+        Drive::vibration(self, config, vibration);
+    }
+
+    #[inline(always)]
+    fn vibration_missing(&mut self, faults: Faults) {
+        Drive::vibration_missing(self, faults);
+    }
+
+    #[inline(always)]
+    fn estimate(&self, config: &Self::Config) -> Estimate<N> {
+        Drive::estimate(self, config)
+    }
+
+    #[inline(always)]
+    fn angle(&self) -> u32 {
+        Drive::angle(self)
+    }
+
+    #[inline(always)]
+    fn is_lost(&self) -> bool {
+        Drive::is_lost(self)
+    }
+}
