@@ -172,8 +172,7 @@ where
             command = Command { torque: N::ZERO, faults: Faults::SETPOINT };
         }
         self.fluctuation.disturb();
-        // Limited at standstill, then held with the permitted torque.
-        command.torque = self.governor.start(&config.governor, &Estimate::default(), command.torque);
+        command.torque = self.governor.permitted(&config.governor, &Estimate::default(), command.torque);
         self.observer.restart(&config.observer, angle, command.torque, N::ZERO);
         self.governor.start(&config.governor, &self.estimate(config), command.torque);
         self.commanded = command.torque;

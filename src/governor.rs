@@ -80,9 +80,12 @@ pub trait Governor<N: Number>: Default {
     /// The torque for the tick that begins.
     fn command(&mut self, config: &Self::Config, estimate: &Estimate<N>) -> N;
 
-    /// Starts anew from the present speed (bumpless transfer), with the permitted torque nearest to this one, which it
-    /// returns; a tripped drive permits none. The setpoint is zero.
-    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) -> N;
+    /// The permitted torque nearest to this one, whatever the last; a tripped drive permits none.
+    fn permitted(&self, config: &Self::Config, estimate: &Estimate<N>, torque: N) -> N;
+
+    /// Starts anew from the present speed with this [permitted](Self::permitted) torque (bumpless transfer). The
+    /// setpoint is zero.
+    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N);
 
     /// Bumpless transfer from the constants `from` to `to`, between two ticks, at the present estimate: the gains
     /// change, the torque does not.
@@ -109,7 +112,9 @@ impl<N: Number> Governor<N> for () {
         N::ZERO
     }
 
-    fn start(&mut self, _config: &(), _estimate: &Estimate<N>, torque: N) -> N {
+    fn permitted(&self, _config: &(), _estimate: &Estimate<N>, torque: N) -> N {
         torque
     }
+
+    fn start(&mut self, _config: &(), _estimate: &Estimate<N>, _torque: N) {}
 }

@@ -68,6 +68,11 @@ impl<N: Number, L: Limit<N>> Limit<N> for BacklashTakeUp<L, N> {
     }
 
     #[inline(always)]
+    fn permitted(&self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N {
+        self.limit.permitted(&config.limit, estimate, wanted)
+    }
+
+    #[inline(always)]
     fn limit(&mut self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N {
         let twist_rate = estimate.motor_speed - estimate.load_speed;
         // positive where the torque drives the flank that the shaft is on
@@ -92,9 +97,8 @@ impl<N: Number, L: Limit<N>> Limit<N> for BacklashTakeUp<L, N> {
     }
 
     #[inline(always)]
-    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) -> N {
-        let permitted = self.limit.start(&config.limit, estimate, torque);
-        self.reach = permitted.magnitude();
-        permitted
+    fn start(&mut self, torque: N) {
+        self.reach = torque.magnitude();
+        self.limit.start(torque);
     }
 }

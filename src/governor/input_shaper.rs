@@ -155,9 +155,13 @@ impl<N: Number, G: Governor<N>, const SLOTS: usize, const PARTS: usize> Governor
         self.governor.command(&config.governor, estimate)
     }
 
-    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) -> N {
+    fn permitted(&self, config: &Self::Config, estimate: &Estimate<N>, torque: N) -> N {
+        self.governor.permitted(&config.governor, estimate, torque)
+    }
+
+    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) {
         self.settle(estimate.motor_speed);
-        self.governor.start(&config.governor, estimate, torque)
+        self.governor.start(&config.governor, estimate, torque);
     }
 
     fn switch(&mut self, from: &Self::Config, to: &Self::Config, estimate: &Estimate<N>) {

@@ -11,8 +11,14 @@ pub trait Limit<N: Number>: Default {
     /// The largest permitted torque (N m), in either direction.
     fn most(&self, config: &Self::Config, estimate: &Estimate<N>) -> N;
 
-    /// The permitted torque nearest to `wanted`.
-    fn limit(&mut self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N;
+    /// The permitted torque nearest to `wanted`, whatever the last.
+    fn permitted(&self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N;
+
+    /// The permitted torque nearest to `wanted` in the tick that begins.
+    #[inline(always)]
+    fn limit(&mut self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N {
+        self.permitted(config, estimate, wanted)
+    }
 
     /// Ramp tracking: the ramped setpoint (rad/s) after a tick in which the governor wanted this torque, moved back by
     /// the torque that the limit withheld over the proportional gain. Without tracking the setpoint stays.
@@ -21,11 +27,9 @@ pub trait Limit<N: Number>: Default {
         setpoint
     }
 
-    /// Starts from the permitted torque nearest to this one, whatever the last, and returns it.
+    /// Starts from this [permitted](Self::permitted) torque.
     #[inline(always)]
-    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) -> N {
-        self.limit(config, estimate, torque)
-    }
+    fn start(&mut self, _torque: N) {}
 }
 
 /// The same limit in both directions.
@@ -54,7 +58,7 @@ impl<N: Number> Limit<N> for SymmetricLimit {
     }
 
     #[inline(always)]
-    fn limit(&mut self, config: &Self::Config, _estimate: &Estimate<N>, wanted: N) -> N {
+    fn permitted(&self, config: &Self::Config, _estimate: &Estimate<N>, wanted: N) -> N {
         wanted.limited(config.torque)
     }
 }
@@ -105,7 +109,7 @@ impl<N: Number> Limit<N> for TorqueRange {
     }
 
     #[inline(always)]
-    fn limit(&mut self, config: &Self::Config, _estimate: &Estimate<N>, wanted: N) -> N {
+    fn permitted(&self, config: &Self::Config, _estimate: &Estimate<N>, wanted: N) -> N {
         between(wanted, config.min, config.max)
     }
 }
@@ -165,7 +169,7 @@ impl<N: Number, const K: usize> Limit<N> for Curve<K> {
     }
 
     #[inline(always)]
-    fn limit(&mut self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N {
+    fn permitted(&self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N {
         between(wanted, config.min, config.max_torque(estimate.motor_speed))
     }
 }
@@ -201,6 +205,11 @@ impl<N: Number, L: Limit<N>> Limit<N> for Slew<L, N> {
     }
 
     #[inline(always)]
+    fn permitted(&self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N {
+        self.limit.permitted(&config.limit, estimate, wanted)
+    }
+
+    #[inline(always)]
     fn limit(&mut self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N {
         let slewed = self.last + (wanted - self.last).limited(config.step);
         self.last = self.limit.limit(&config.limit, estimate, slewed);
@@ -208,8 +217,8 @@ impl<N: Number, L: Limit<N>> Limit<N> for Slew<L, N> {
     }
 
     #[inline(always)]
-    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) -> N {
-        self.last = self.limit.start(&config.limit, estimate, torque);
-        self.last
+    fn start(&mut self, torque: N) {
+        self.last = torque;
+        self.limit.start(torque);
     }
 }

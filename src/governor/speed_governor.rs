@@ -145,15 +145,14 @@ where
         self.compensation.transient(&config.compensation, estimate, steady).saturated()
     }
 
-    /// Starts from the present speed with the permitted torque nearest to this one, steady (bumpless transfer).
-    fn begin(&mut self, config: &<Self as Governor<N>>::Config, estimate: &Estimate<N>, torque: N) -> N {
-        let torque = self.limit.start(&config.limit, estimate, torque);
+    /// Starts from the present speed with this permitted torque, steady (bumpless transfer).
+    fn begin(&mut self, config: &<Self as Governor<N>>::Config, estimate: &Estimate<N>, torque: N) {
         let speed = estimate.motor_speed;
         let lowered = self.shape.lower(&config.shape, speed, torque);
         self.ramped = speed + (speed - lowered);
         let beyond = self.compensation.steady(&config.compensation, estimate, torque) - torque;
         self.integral = (torque - beyond).saturated();
-        torque
+        self.limit.start(torque);
     }
 }
 
@@ -189,9 +188,7 @@ where
         let mut setpoint = self.setpoint;
         match self.sequence.action(&config.sequence, monitored) {
             RunAction::Govern => {}
-            RunAction::Begin => {
-                self.begin(config, estimate, N::ZERO);
-            }
+            RunAction::Begin => self.begin(config, estimate, N::ZERO),
             RunAction::Brake => setpoint = N::ZERO,
             RunAction::Idle => return N::ZERO,
         }
@@ -210,12 +207,15 @@ where
         SpeedGovernor::switch(self, from, to, estimate);
     }
 
-    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) -> N {
+    fn permitted(&self, config: &Self::Config, estimate: &Estimate<N>, torque: N) -> N {
+        if self.sequence.permits() { self.limit.permitted(&config.limit, estimate, torque) } else { N::ZERO }
+    }
+
+    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) {
         self.sequence.start();
         self.filter.start(&config.filter, estimate);
+        self.begin(config, estimate, torque);
         self.setpoint = N::ZERO;
-        let torque = if self.sequence.permits() { torque } else { N::ZERO };
-        self.begin(config, estimate, torque)
     }
 
     fn angle_lost(&mut self, config: &Self::Config, estimate: &Estimate<N>) {

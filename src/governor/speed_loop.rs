@@ -99,11 +99,14 @@ impl<N: Number, F: LoopFilter<N>> Governor<N> for SpeedLoop<F, N> {
         self.integral = (self.integral + (prompt(from) - prompt(to)).limited(twice)).limited(twice);
     }
 
-    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) -> N {
+    fn permitted(&self, config: &Self::Config, _estimate: &Estimate<N>, torque: N) -> N {
+        torque.limited(config.torque_limit)
+    }
+
+    fn start(&mut self, _config: &Self::Config, estimate: &Estimate<N>, torque: N) {
         self.ramped = estimate.motor_speed;
         self.setpoint = N::ZERO;
-        self.integral = torque.limited(config.torque_limit);
+        self.integral = torque;
         self.filter = F::default();
-        self.integral
     }
 }

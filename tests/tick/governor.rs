@@ -30,7 +30,8 @@ fn a_start_beyond_the_torque_limit_starts_at_the_limit() {
     };
     for sign in [1.0, -1.0] {
         let mut governor = SpeedLoop::<(), f64>::default();
-        governor.start(&config, &at(0.0), sign * 1000.0);
+        let permitted = governor.permitted(&config, &at(0.0), sign * 1000.0);
+        governor.start(&config, &at(0.0), permitted);
         assert_eq!(governor.command(&config, &at(sign * 10.0)), sign * 40.0);
     }
 }
@@ -110,7 +111,7 @@ fn the_reach_of_a_take_up_rises_on_the_driven_flank_alone() {
     };
     for side in [1.0, -1.0] {
         let mut limit = BacklashTakeUp::<SymmetricLimit, f64>::default();
-        limit.start(&config, &at(50.0), side * 4.0);
+        limit.start(side * 4.0);
         let mut allowed = |shaft_torque: f64, wanted: f64| {
             // a twist rate of 4
             let estimate = Estimate { shaft_torque: side * shaft_torque, load_speed: 46.0, ..at(50.0) };
@@ -279,7 +280,8 @@ fn a_shaper_hands_on_the_steady_speed_and_a_trip() {
     };
     let config = InputShaperConfig { ramp: 1.0, slot: 10, share: 0.5, governor };
     let mut shaper = InputShaper::<Inner, 2, 3, f64>::default();
-    assert_eq!(shaper.start(&config, &at(100.0), 0.0), 0.0);
+    assert_eq!(shaper.permitted(&config, &at(100.0), -101.0), -100.0);
+    shaper.start(&config, &at(100.0), 0.0);
     shaper.set_setpoint(100.0);
     shaper.set_steady_speed(Some(93.0));
     assert_eq!(shaper.command(&config, &at(100.0)), 7.0);
@@ -292,7 +294,7 @@ fn a_shaper_hands_on_the_steady_speed_and_a_trip() {
     shaper.set_steady_speed(None);
     assert_eq!(shaper.command(&config, &at(100.0)), 0.0);
     shaper.angle_lost(&config, &at(100.0));
-    assert_eq!(shaper.start(&config, &at(100.0), 5.0), 0.0, "the angle is lost: a tripped governor holds nothing");
+    assert_eq!(shaper.permitted(&config, &at(100.0), 5.0), 0.0, "the angle is lost: a tripped governor holds nothing");
 }
 
 #[test]

@@ -111,7 +111,7 @@ fn every_trip_comes_when_it_is_due_and_stays() {
         for refused in [RunRequest::Start, RunRequest::Stop, RunRequest::Trip] {
             assert!(!governor.sequence_mut().request(refused));
         }
-        assert_eq!(governor.start(&config(), &at(0.0, 0.0), 300.0), 0.0);
+        assert_eq!(governor.permitted(&config(), &at(0.0, 0.0), 300.0), 0.0);
         governor.angle_lost(&config(), &at(0.0, 0.0));
         assert_eq!((run(&mut governor, 0.0, 0.0, 5), mode(&governor)), (0.0, RunState::Tripped(trip)));
         assert!(governor.sequence_mut().request(RunRequest::Reset));

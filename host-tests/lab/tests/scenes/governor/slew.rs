@@ -46,7 +46,7 @@ fn slewed<N: Number>(
 ) -> f64 {
     let estimate = Estimate::default();
     let mut slew = Slew::<SymmetricLimit, N>::default();
-    slew.start(&step, &estimate, to(WEIGHT / 0.94));
+    slew.start(to(WEIGHT / 0.94));
     factor(|| of(slew.limit(&step, &estimate, to(WEIGHT / 0.94 + CHANGE))))
 }
 

@@ -216,9 +216,11 @@ impl Governor<f64> for Probe {
         self.0
     }
 
-    fn start(&mut self, _: &(), _: &Estimate<f64>, torque: f64) -> f64 {
+    fn permitted(&self, _: &(), _: &Estimate<f64>, torque: f64) -> f64 {
         torque
     }
+
+    fn start(&mut self, _: &(), _: &Estimate<f64>, _: f64) {}
 }
 
 /// What changes of a setpoint, tick by tick, leave in a vibration, but for its decay since: `sum du exp(s t)`.
