@@ -57,12 +57,6 @@ pub const LONG: [Step; 8] = [
         repeat: "cargo lab check --long --only inputs",
         run: inputs,
     },
-    Step {
-        name: "mutants",
-        content: "each operator and result of the tick path changed: at least 95 % of each part noticed by a test",
-        repeat: "cargo lab check --long --only mutants",
-        run: mutants,
-    },
 ];
 
 fn power_cuts(voice: &Voice) -> Result<Count, Failed> {
@@ -140,9 +134,4 @@ fn inputs(voice: &Voice) -> Result<Count, Failed> {
     let failed = faults.len() as u64;
     let count = Count { passed: gaps.len() as u64 - failed, failed, skipped: 0 };
     Err(Failed { count, message: faults.join("\n") })
-}
-
-/// It says how far it is, and what it has found at the end.
-fn mutants(voice: &Voice) -> Result<Count, Failed> {
-    cargo::passes(&["run", "--manifest-path=host-tests/mutants/Cargo.toml", "--", "--least", "95"], voice)
 }
