@@ -1,4 +1,5 @@
 #![no_std]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 //! Drivers of chips and peripherals for the controllers of `driveline`, over `embedded-hal` 1.0: the parts of a

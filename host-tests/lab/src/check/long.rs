@@ -14,7 +14,7 @@ use super::{Count, Failed, Step, Voice, cargo, pages};
 const LAB: &str = "driveline-lab";
 
 /// All long steps, the shortest first.
-pub const LONG: [Step; 8] = [
+pub const LONG: [Step; 7] = [
     Step {
         name: "power-cuts",
         content: "the flash's power cut at every byte of a save: the record is the old one or the new one",
