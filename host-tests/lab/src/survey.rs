@@ -18,7 +18,6 @@ mod figures;
 mod jobs;
 mod page;
 mod pool;
-mod reason;
 mod selection;
 
 pub use adapters::adapters;
@@ -28,5 +27,4 @@ pub use figures::{Failure, Gentle, Run, SceneFigures, Survey};
 pub use jobs::{CASES, Job, Piece, REVERSALS, SWEEP, jobs};
 pub use page::{survey_markdown, survey_page, survey_table};
 pub use pool::work;
-pub use reason::{Quantity, Reason, Share, reasons};
 pub use selection::{COMMISSIONING, GENERATOR, Wanted};

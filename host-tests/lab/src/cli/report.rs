@@ -74,13 +74,6 @@ impl Report {
             say_json(&survey)?;
         } else {
             say(survey_table(&survey));
-            for scene in &survey.scenes {
-                for run in &scene.runs {
-                    for reason in &run.reasons {
-                        say(format_args!("{}, {}: {}", scene.name, run.variant.label(), reason.sentence()));
-                    }
-                }
-            }
         }
         all([
             file.write_and_say(&survey_page(&survey), self.json),

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Aim, Factor, Reason};
+use super::{Aim, Factor};
 use crate::backlash::Comparison;
 use crate::balancing;
 use crate::cases::Case;
@@ -21,8 +21,6 @@ pub struct Run {
     pub factors: Vec<Factor>,
     /// Bytes of code that a tick reaches.
     pub tick_code: u64,
-    /// Why it misses its aims; empty where it keeps them or is not the design's choice.
-    pub reasons: Vec<Reason>,
 }
 
 impl Run {

@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use driveline_firmware::board::{BOARDS, Facts};
 
 use super::selection::{COMMISSIONING, GENERATOR};
-use super::{Aim, Factor, Run, SceneFigures, Survey, Wanted, reasons};
+use super::{Aim, Factor, Run, SceneFigures, Survey, Wanted};
 use crate::backlash::Comparison;
 use crate::balancing;
 use crate::campaign::SCENES as CAMPAIGNS;
@@ -313,15 +313,9 @@ fn drivetrain(scene: &'static str, build: Build, candidate: Candidate, seconds: 
         let ran = engine::run(&machine, &candidate, base, Options { quick }, &says).map_err(sentence)?;
         let chosen = (candidate.part(2), candidate.rate_hz()) == machine.chosen;
         let aim = Aim::of(&machine, &ran.traces);
-        let reasons = if chosen && !quick && !aim.kept(&ran.variant) {
-            says(&format!("{}: again with exact sensors", candidate.key()));
-            reasons(&machine, &candidate, &aim, &ran.variant, &ran.traces)?
-        } else {
-            Vec::new()
-        };
         let runs = ran.traces.iter().zip(&machine.scenarios);
         let factors = runs.map(|(trace, scenario)| Factor::of(&machine, scenario, &trace.moments)).collect();
-        let run = Run { variant: ran.variant, chosen, factors, tick_code: ran.tick_code, reasons };
+        let run = Run { variant: ran.variant, chosen, factors, tick_code: ran.tick_code };
         Ok(Piece::Run(scene.to_owned(), aim, Box::new(run)))
     };
     let ticks = seconds * f64::from(candidate.rate_hz());

@@ -5,7 +5,7 @@ use driveline_lab::cases::Case;
 use driveline_lab::commissioning::{Target, Verdict, named, on_host, verdict};
 use driveline_lab::drivetrains::SCENES;
 use driveline_lab::survey::{
-    Aim, Factor, Failure, Quantity, Reason, Run, SceneFigures, Share, Survey, Wanted, adapters, jobs,
+    Aim, Factor, Failure, Run, SceneFigures, Survey, Wanted, adapters, jobs,
 };
 use driveline_lab::survey::{survey_markdown, survey_page, survey_table};
 use driveline_report::chart::front;
@@ -27,7 +27,7 @@ pub fn survey(error: f64) -> Survey {
             let chosen = observer == "slack";
             let factor = |scenario: &str, opened| Factor { scenario: scenario.into(), opened, peak, rigid: 50.0 };
             let factors = vec![factor("reversal", true), factor("steady", false)];
-            Run { variant, chosen, factors, tick_code: 512, reasons: Vec::new() }
+            Run { variant, chosen, factors, tick_code: 512 }
         })
     };
     let scene = |name: &str| SceneFigures {
@@ -115,27 +115,6 @@ fn the_gentle_governor_stands_beside_the_plain_one_where_a_gap_opens() {
     assert_eq!(beside, ["rigid"]);
     // 60 over 50, of either run.
     assert!((scene.runs[2].factor().k().unwrap() - 1.2).abs() < 1e-12);
-}
-
-#[test]
-fn a_miss_is_told_with_its_amount_and_its_reasons() {
-    let mut survey = survey(0.031);
-    let share = |name: &str, share: f64| Share { name: name.into(), share, detail: format!("{name} in detail") };
-    let shares = vec![share("noise", 0.6), share("mode left out", 0.4)];
-    let reason = Reason { quantity: Quantity::ShaftTorque, error: 0.031, aim: 0.02, shares };
-    survey.scenes[0].runs[2].reasons.push(reason);
-    let page = survey_page(&survey);
-    assert_sound(&page);
-    // 3.1 % against 2 %: 1.1 points.
-    for part in [
-        "Causes of missed requirements",
-        "missed by 1.10",
-        "60 % noise",
-        "40 % mode left out",
-        "mode left out in detail",
-    ] {
-        assert!(page.contains(part), "{part}");
-    }
 }
 
 #[test]

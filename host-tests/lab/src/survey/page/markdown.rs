@@ -36,13 +36,6 @@ impl Section {
             let cells = |row: &[Cell]| row.iter().map(|cell| cell.text.clone()).collect::<Vec<_>>();
             rows(text, &cells(headings), all.iter().map(|row| cells(row)));
         }
-        if !self.reasons.is_empty() {
-            paragraph(text, "### ", "Causes of missed requirements");
-            for reason in &self.reasons {
-                let _ = writeln!(text, "- {}", escaped(reason));
-            }
-            text.push('\n');
-        }
     }
 }
 

@@ -154,9 +154,5 @@ pub fn section(survey: &Survey, scene: &SceneFigures) -> Section {
     if !scene.runs.is_empty() {
         section = section.table("", "", &table);
     }
-    for run in &scene.runs {
-        let reasons = run.reasons.iter().map(|reason| format!("{}: {}", run.variant.label(), reason.sentence()));
-        section.reasons.extend(reasons);
-    }
     section
 }

@@ -11,7 +11,6 @@ pub struct Section {
     pub(super) title: String,
     pub(super) text: String,
     pub(super) failures: Vec<String>,
-    pub(super) reasons: Vec<String>,
     pub(super) tables: Vec<Shown>,
 }
 
