@@ -145,7 +145,7 @@ fn long(core: Core, first: u16, second: u16) -> Cycles {
         // LDM, STM; LDM may load the program counter
         0x74 if first & 0x40 == 0 && first & 0x10 != 0 => registers(second) + into_counter,
         0x74 if first & 0x40 == 0 => registers(second),
-        0x74 if is_table(first, second) => between(2, 4),
+        0x74 if is_table(first, second) => between(2, 3),
         0x74 if first & 0x120 == 0 => exactly(2), // exclusive accesses
         0x74 => exactly(3),                       // LDRD, STRD
         0x76 => floating_access(first, second),

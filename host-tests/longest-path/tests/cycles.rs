@@ -19,7 +19,7 @@ fn instructions_take_the_cycles_of_the_manuals() {
         ((0xe8bd, 0x8ff0), (11, 13), "pop.w {r4-r11, pc}"),
         ((0x4770, 0), (2, 4), "bx lr"),
         ((0xf000, 0xf803), (2, 4), "bl"),
-        ((0xe8df, 0xf000), (2, 4), "tbb [pc, r0], the jump apart"),
+        ((0xe8df, 0xf000), (2, 3), "tbb [pc, r0], the jump apart"),
         ((0xbf08, 0), (1, 1), "it eq"),
         ((0xfb92, 0xf0f1), (2, 12), "sdiv r0, r2, r1"),
         ((0xed90, 0x0a01), (2, 2), "vldr s0, [r0, #4]"),
@@ -158,6 +158,18 @@ fn a_branch_takes_longer_where_it_is_taken() {
     assert_eq!(cycles(&[0xb120, 0xbf00, 0xbf00, 0xbf00, 0xbf00, 0x4770, 0x4770], &[]), (1 + 4 + 2, 1 + 4 + 4));
     // cbz r0, 1f; bx lr; 1: bx lr. The path with the most cycles is the one that jumps.
     assert_eq!(cycles(&[0xb100, 0x4770, 0x4770], &[]), (1 + 1 + 2, 1 + 3 + 4));
+}
+
+/// At least six by the text of both manuals (DDI 0337I 3-9, DDI 0439D 3-12), 2 + P by their tables, and one where the
+/// table is fetched against the code.
+#[test]
+fn a_jump_through_a_table_takes_six() {
+    // tbh [pc, r0, lsl #1]; .short to 6, 7; 6: bx lr; 7: nop; bx lr
+    let code = Code::of(0x100, &[("f", &[0xe8df, 0xf010, 2, 3, 0x4770, 0xbf00, 0x4770])], &[(0x104, 0x108)]);
+    for core in [Core::M3, Core::M4] {
+        let found = Bounds::cycles(&code, &Loops::default(), core, Flash::IDEAL, 0x100).unwrap();
+        assert_eq!(found, Cycles { least: (2 + 1) + 1 + 2, most: (6 + 1) + 1 + 4 }, "{core:?}");
+    }
 }
 
 #[test]
