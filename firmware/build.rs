@@ -19,6 +19,11 @@ fn main() {
     println!("cargo::rustc-check-cfg=cfg(driveline_board, values(any()))");
     println!("cargo::rustc-cfg=driveline_board={board:?}");
 
+    if target.starts_with("riscv") {
+        let map = boards().join("virt.x");
+        println!("cargo::rerun-if-changed={}", map.display());
+        println!("cargo::rustc-link-arg-bins=-T{}", map.display());
+    }
     if target.starts_with("thumb") {
         memory_map(&board);
         if env::var_os("CARGO_FEATURE_DEFMT").is_some() {
@@ -29,23 +34,31 @@ fn main() {
 
 /// The board that QEMU offers for a target: a core with an FPU, or one without.
 fn default_board(target: &str) -> &'static str {
-    if target.ends_with("eabihf") { "mps2-an386" } else { "mps2-an385" }
+    match target {
+        _ if target.starts_with("riscv") => "virt",
+        _ if target.ends_with("eabihf") => "mps2-an386",
+        _ => "mps2-an385",
+    }
 }
 
 /// Puts the board's memory map where the linker finds it as `board.x`, which `memory.x` includes.
 fn memory_map(board: &str) {
-    let package = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR"));
-    let boards = package.join("src/board");
+    let boards = boards();
     let own = boards.join(format!("{}.x", board.replace('-', "_")));
     let map = if own.exists() { own } else { boards.join("mps2.x") };
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     copy(&map, &out.join("board.x"));
     // the repository's, which its README names
-    let memory = package.join("../memory.x");
+    let memory = boards.join("../../../memory.x");
     copy(&memory, &out.join("memory.x"));
     println!("cargo::rerun-if-changed={}", map.display());
     println!("cargo::rerun-if-changed={}", memory.display());
     println!("cargo::rustc-link-search={}", out.display());
+}
+
+/// The folder of the boards.
+fn boards() -> PathBuf {
+    PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR")).join("src/board")
 }
 
 fn copy(from: &Path, to: &Path) {

@@ -13,8 +13,9 @@ pub mod mps2_an386;
 pub mod mps2_an500;
 pub mod mps2_an505;
 pub mod nucleo_g474re;
+pub mod virt;
 
-#[cfg(all(feature = "target", target_os = "none"))]
+#[cfg(all(feature = "target", target_arch = "arm"))]
 mod cmsdk_timer;
 #[cfg(all(feature = "target", feature = "defmt", target_os = "none"))]
 mod logger;
@@ -38,6 +39,8 @@ pub use mps2_an500::Mps2An500 as ThisBoard;
 pub use mps2_an505::Mps2An505 as ThisBoard;
 #[cfg(all(feature = "nucleo-g474re", target_os = "none", driveline_board = "nucleo-g474re"))]
 pub use nucleo_g474re::NucleoG474re as ThisBoard;
+#[cfg(all(feature = "target", target_arch = "riscv32", driveline_board = "virt"))]
+pub use virt::Virt as ThisBoard;
 
 /// The boards whose cores have budgets.
 pub const BOARDS: &[Facts] = &[mps2_an386::FACTS, mps2_an385::FACTS];
@@ -49,3 +52,6 @@ pub const FURTHER: &[Facts] = &[
     mps2_an505::FACTS,
     Facts { core: "m0plus", target: "thumbv6m-none-eabi", ..mps2_an385::FACTS },
 ];
+
+/// RISC-V: cores without and with a unit for single precision, on which the self-test gives the same bits.
+pub const RISC_V: &[Facts] = &[virt::IMAC, virt::IMAFC];

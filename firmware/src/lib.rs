@@ -16,9 +16,9 @@ pub mod scene;
 pub mod scenes;
 pub mod self_test;
 
-#[cfg(all(feature = "target", target_os = "none"))]
+#[cfg(all(feature = "target", target_arch = "arm"))]
 pub mod bench;
-#[cfg(all(feature = "target", target_os = "none"))]
+#[cfg(all(feature = "target", target_arch = "arm"))]
 pub mod measure;
 
 pub use scene::table::Words;

@@ -2,7 +2,6 @@
 #![no_main]
 //! The fingerprint of the selected scene over the built-in inputs, to be compared with the host's.
 
-use cortex_m_rt::entry;
 use driveline_firmware::Words;
 use driveline_firmware::board::json_line::Line;
 use driveline_firmware::board::{Board, ThisBoard};
@@ -11,7 +10,8 @@ use driveline_firmware::self_test::fingerprint;
 
 driveline_firmware::selected!();
 
-#[entry]
+#[cfg_attr(target_arch = "arm", cortex_m_rt::entry)]
+#[cfg_attr(target_arch = "riscv32", unsafe(no_mangle))]
 fn main() -> ! {
     let board = ThisBoard::start();
     let mut line = Line::new()

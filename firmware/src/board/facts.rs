@@ -10,3 +10,15 @@ pub struct Facts {
     /// The compiler's target.
     pub target: &'static str,
 }
+
+impl Facts {
+    /// Whether its core computes in single precision.
+    pub fn has_float_unit(&self) -> bool {
+        self.target.ends_with("hf") || self.target.starts_with("riscv32imafc")
+    }
+
+    /// Whether its core is a RISC-V.
+    pub fn is_risc_v(&self) -> bool {
+        self.target.starts_with("riscv")
+    }
+}

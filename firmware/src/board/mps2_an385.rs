@@ -6,8 +6,8 @@ use super::facts::Facts;
 pub const FACTS: Facts = Facts { name: "mps2-an385", core: "m3", target: "thumbv7m-none-eabi" };
 
 /// The board, as QEMU models it.
-#[cfg(all(feature = "target", target_os = "none"))]
+#[cfg(all(feature = "target", target_arch = "arm"))]
 pub struct Mps2An385(super::cmsdk_timer::Timer0);
 
-#[cfg(all(feature = "target", target_os = "none"))]
+#[cfg(all(feature = "target", target_arch = "arm"))]
 super::cmsdk_timer::qemu_mps2!(Mps2An385, Timer0);

@@ -2,8 +2,12 @@
 //!
 //! Arm IHI 0105, Semihosting for AArch32 and AArch64. Paths are relative to QEMU's working directory.
 
+#[cfg(target_arch = "riscv32")]
+use super::virt::{syscall, syscall1};
 use core::ffi::CStr;
-use cortex_m_semihosting::{nr, syscall, syscall1};
+use cortex_m_semihosting::nr;
+#[cfg(target_arch = "arm")]
+use cortex_m_semihosting::{syscall, syscall1};
 
 use super::interface::Link;
 use crate::scene::{Input, Output};

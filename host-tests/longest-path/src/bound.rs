@@ -6,9 +6,10 @@ use std::rc::Rc;
 use crate::code::{Code, Function};
 use crate::cycles::{Core, Cycles};
 use crate::flash::Flash;
-use crate::graph::{Graph, Node};
+use crate::graph::Graph;
 use crate::instruction::{Flow, Instruction};
 use crate::loops::{entries, ordered};
+use crate::neighbours::Neighbours;
 use crate::path::{Longest, Piece};
 use crate::refusal::Refusal;
 
@@ -72,19 +73,20 @@ impl<'c> Bounds<'c> {
     /// The least cycles of the path with the most.
     fn least(&mut self, core: Core, start: u32) -> Result<u64, Refusal> {
         let here = self.bounded(start)?;
-        let path = here.longest.path(here.longest.most().1);
-        let behind = path.iter().skip(1).map(Some).chain([None]);
+        let neighbours = Neighbours { graph: &here.graph, core };
+        let mut before = None;
         let mut sum = 0;
-        for ((at, times), behind) in path.iter().zip(behind) {
-            let Some(node) = here.graph.nodes.get(at) else { continue };
-            let executed = Cycles::of(core, node.code.0, node.code.1).least;
-            sum += times * if node.conditional { executed.min(1) } else { executed };
-            if let Some((_, again)) = behind.filter(|(to, _)| !here.graph.goes_on(*at, *to)) {
-                sum += times.min(again) * core.taken().least;
-            }
-            if let Some(target) = node.calls {
+        for (at, times) in here.longest.path(here.longest.most().1) {
+            let Some(node) = here.graph.nodes.get(&at) else { continue };
+            // in a loop the instruction before may be one or the other
+            let further = node.from.iter().filter(|_| times > 1).map(|from| Some(*from));
+            let all = further.chain([before]).map(|before| neighbours.cycles(before, at).least);
+            sum += times * all.min().unwrap_or(0);
+            // a jump into another function on a condition need not be taken
+            if let Some(target) = node.calls.filter(|_| !node.hands_over || node.next.is_empty()) {
                 sum += times * (self.least(core, target)? + if node.hands_over { core.taken().least } else { 0 });
             }
+            before = Some(at);
         }
         Ok(sum)
     }
@@ -137,23 +139,21 @@ impl<'c> Bounds<'c> {
         }
         let elements = ordered(&graph)?;
         let turns = self.turns(function, entries(&elements).into_iter().collect())?;
-        let alone = |at: u32, node: &Node| match self.clock {
-            Some((core, flash)) => {
-                let (first, second) = node.code;
-                let leaves = node.calls.is_some() || Instruction::decode(at, first, second).flow == Flow::Return;
-                // a jump into another function is taken
-                let taken = if node.hands_over { core.taken().most } else { 0 };
-                let waits = flash.straight(at, node.size, node.code) + if leaves { flash.jump() } else { 0 };
-                Cycles::of(core, first, second).most + taken + waits
-            }
-            None => 1,
+        let weight = |before: Option<u32>, at: u32| {
+            let called = callees.get(&at).map_or(0, |it: &Bound| it.instructions);
+            let Some((node, (core, flash))) = graph.nodes.get(&at).zip(self.clock) else { return 1 + called };
+            let leaves = node.calls.is_some() || Instruction::decode(at, node.code.0, node.code.1).flow == Flow::Return;
+            // a jump into another function is taken
+            let taken = if node.hands_over { core.taken().most } else { 0 };
+            let goes_on = |before| core.is_small() && graph.goes_on(before, at);
+            let branches = before.is_some_and(|before| graph.fetches_target(before, at) && !goes_on(before));
+            let waits = flash.straight(at, node.size, node.code)
+                + if leaves { flash.jump() } else { 0 }
+                + if branches { flash.jump() } else { 0 };
+            Neighbours { graph: &graph, core }.cycles(before, at).most + taken + waits + called
         };
-        let weight = |at| {
-            graph.nodes.get(&at).map_or(0, |node| alone(at, node)) + callees.get(&at).map_or(0, |it| it.instructions)
-        };
-        let jump = self.clock.map_or(0, |(core, flash)| core.taken().most + flash.jump());
         let turns = |entry| turns.get(&entry).copied().unwrap_or(1);
-        let longest = Longest::through(&graph, &elements, &weight, jump, &turns);
+        let longest = Longest::through(&graph, &elements, &weight, &turns);
         let deep =
             |(at, callee): (&u32, &Bound)| graph.nodes.get(at).map_or(0, |node| node.after) + callee.stack as i32;
         let depth = callees.iter().map(deep).max().unwrap_or(0).max(graph.depth);

@@ -1,16 +1,18 @@
-//! Cycles of an instruction as an interval, by the rules of the cores' manuals, without wait states.
+//! Cycles of an instruction by itself, as an interval, without wait states.
 //!
-//! Arm DDI 0432 (Cortex-M0), DDI 0484 (Cortex-M0+), DDI 0337 (Cortex-M3) and DDI 0439 (Cortex-M4), each table 3-1, and
-//! for the floating-point unit DDI 0439, table 7-1. The manual of the Cortex-M7 (DDI 0489) prints no cycles. What the
-//! manuals leave open, the interval covers:
+//! Arm DDI 0432 (Cortex-M0), DDI 0484 (Cortex-M0+), DDI 0337I (Cortex-M3) and DDI 0439D (Cortex-M4), each table 3-1, and
+//! for the floating-point unit DDI 0439D, table 7-1. The manual of the Cortex-M7 (DDI 0489) prints no cycles. What
+//! depends on the instruction before is in [`neighbours`](crate::neighbours). What depends on operands or is left open:
 //! - P, the refilling of the pipeline after a taken branch, on the M3 and M4: 1 to 3.
-//! - A load or a store alone, on the M3 and M4: 2, or 1 where its phases overlap those of a neighbour; on the M0+: 2,
-//!   or 1 at the port of a single cycle.
-//! - Long multiplications of the M3 (3 to 5, with a sum 4 to 7) and divisions (2 to 12): they depend on the operands.
-//! - `IT`: 1, or none where it is folded into the instruction before.
-//! - A result of the floating-point unit that the next instruction uses: one more.
+//! - A load or a store alone on the M0+: 2, or 1 at the port of a single cycle.
+//! - Long multiplications of the M3 (3 to 5, with a sum 4 to 7) and divisions (2 to 12).
+//! - TBB and TBH: 2 + P by the table, at least 6 by the text (DDI 0337I 3-9, DDI 0439D 3-12).
+//! - VDIV and VSQRT: 14, or 1 where no instruction of the unit follows (DDI 0439D 7-6).
+//! - VMOV of one word between core and unit: 2 by the manual, and a measurement of 1 would not be refuted.
 //!
 //! The M0 and M0+ are taken to have the fast multiplier, of one cycle: the small one takes 32.
+
+use crate::operands::{Kind, Operands, is_table};
 
 /// A core whose manual has the rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,11 +37,12 @@ impl Core {
         }
     }
 
-    /// A load or a store alone.
-    const fn access(self) -> Cycles {
-        match self {
-            Core::M0 => exactly(2),
-            _ => between(1, 2),
+    /// A load or a store alone; a store at a constant offset is always one on the M3 and M4.
+    const fn access(self, kind: Kind) -> Cycles {
+        match (self, kind) {
+            (Core::M0Plus, _) => between(1, 2),
+            (Core::M3 | Core::M4, Kind::Store) => exactly(1),
+            _ => exactly(2),
         }
     }
 
@@ -58,7 +61,7 @@ impl Core {
     }
 
     /// Whether it has the instructions of Armv6-M alone.
-    const fn is_small(self) -> bool {
+    pub(crate) const fn is_small(self) -> bool {
         matches!(self, Core::M0 | Core::M0Plus)
     }
 }
@@ -72,22 +75,30 @@ pub struct Cycles {
     pub most: u64,
 }
 
-const fn between(least: u64, most: u64) -> Cycles {
+pub(crate) const fn between(least: u64, most: u64) -> Cycles {
     Cycles { least, most }
 }
 
-const fn exactly(cycles: u64) -> Cycles {
+pub(crate) const fn exactly(cycles: u64) -> Cycles {
     between(cycles, cycles)
 }
 
 impl Cycles {
-    /// Of an instruction that is executed, and not skipped; a branch, which counts as not taken.
+    /// Of an instruction that is executed, and not skipped, behind one that has no effect on it; a branch, which counts
+    /// as not taken.
     pub fn of(core: Core, first: u16, second: u16) -> Self {
         match first >> 11 >= 0b11101 {
             true if core.is_small() => exactly(2) + core.taken(), // BL; MRS, MSR and barriers take as long
             true => long(core, first, second),
             false => short(core, first),
         }
+    }
+}
+
+impl Cycles {
+    /// Of one of two.
+    pub(crate) fn or(self, other: Self) -> Self {
+        between(self.least.min(other.least), self.most.max(other.most))
     }
 }
 
@@ -117,11 +128,11 @@ fn short(core: Core, word: u16) -> Cycles {
         _ => {}
     }
     match word >> 11 {
-        0b01001..=0b10011 => core.access(),                  // LDR, STR and the like
-        0b11000 | 0b11001 => registers(word & 0xff),         // STM, LDM
-        _ if word >> 8 == 0x47 => exactly(1) + core.taken(), // BX, BLX
+        0b01001..=0b10011 => core.access(Operands::of(word, 0).kind), // LDR, STR and the like
+        0b11000 | 0b11001 => registers(word & 0xff),                  // STM, LDM
+        _ if word >> 8 == 0x47 => exactly(1) + core.taken(),          // BX, BLX
         _ if word & 0xff87 == 0x4687 || word & 0xff87 == 0x4487 => exactly(1) + core.taken(), // into the counter
-        _ if word >> 8 == 0xbf && word & 0xf != 0 => between(0, 1), // IT
+        _ if word & 0xffe8 == 0xb660 && !core.is_small() => between(1, 2), // CPS
         _ => exactly(1),
     }
 }
@@ -134,15 +145,17 @@ fn long(core: Core, first: u16, second: u16) -> Cycles {
         // LDM, STM; LDM may load the program counter
         0x74 if first & 0x40 == 0 && first & 0x10 != 0 => registers(second) + into_counter,
         0x74 if first & 0x40 == 0 => registers(second),
-        0x74 if first & 0xfff0 == 0xe8d0 => exactly(2), // TBB, TBH and exclusive loads
-        0x74 => exactly(3),                             // LDRD, STRD
+        0x74 if is_table(first, second) => between(2, 3),
+        0x74 if first & 0x120 == 0 => exactly(2), // exclusive accesses
+        0x74 => exactly(3),                       // LDRD, STRD
         0x76 => floating_access(first, second),
         0x77 if second & 0x10 == 0 => floating(first, second),
+        0x77 if first & 0xffe0 == 0xee00 => between(1, 2), // VMOV of a word between core and unit
         // BL and control: barriers, special registers
         0x78..=0x7b if second & 0xd000 == 0xd000 => exactly(1) + core.taken(),
         0x78..=0x7b if second & 0xd000 == 0x8000 && first >> 7 & 7 == 7 => between(1, 4),
-        0x7c if first & 0x10 != 0 && second >> 12 == 15 => core.access() + core.taken(), // LDR into the program counter
-        0x7c => core.access(),
+        0x7c if first & 0x10 != 0 && second >> 12 == 15 => exactly(2) + core.taken(), // LDR into the program counter
+        0x7c => core.access(Operands::of(first, second).kind),
         0x7d => match first >> 4 & 0x1f {
             0x10 if second >> 12 != 15 && m3 => exactly(2), // MLA, MLS
             0x19 | 0x1b => between(2, 12),                  // SDIV, UDIV
@@ -165,15 +178,12 @@ fn floating_access(first: u16, second: u16) -> Cycles {
     }
 }
 
-/// Arithmetic of the unit; its result may be used at once.
+/// Arithmetic of the unit.
 fn floating(first: u16, second: u16) -> Cycles {
-    let used = |cycles| between(cycles, cycles + 1);
     match first & 0xffb0 {
-        0xee00 | 0xee10 | 0xee90 | 0xeea0 => used(3), // VMLA, VMLS, VNMLA, VNMLS, VFMA, VFMS, VFNMA, VFNMS
-        0xee20 | 0xee30 => used(1),                   // VMUL, VNMUL, VADD, VSUB
-        0xee80 => used(14),                           // VDIV
-        0xeeb0 if first & 0xf == 1 && second & 0xc0 == 0xc0 => used(14), // VSQRT
-        0xeeb0 if first & 0xf >= 8 || first & 0xe == 2 => used(1), // VCVT
-        _ => exactly(1),                              // VMOV, VABS, VNEG, VCMP
+        0xee00 | 0xee10 | 0xee90 | 0xeea0 => exactly(3), // VMLA, VMLS, VNMLA, VNMLS, VFMA, VFMS, VFNMA, VFNMS
+        0xee80 => between(1, 14),                        // VDIV
+        0xeeb0 if first & 0xf == 1 && second & 0xc0 == 0xc0 => between(1, 14), // VSQRT
+        _ => exactly(1),
     }
 }

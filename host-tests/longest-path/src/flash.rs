@@ -5,7 +5,7 @@
 //! - A load may be of constants in flash. Each word then waits, and so does the code after it, whose line has gone.
 //!   Where the stack pointer is the base it is of the stack, which is no flash.
 //! - A store waits for nothing.
-//! - A target that the core fetches ahead of a branch which is then not taken is not counted.
+//! - A branch that is not taken waits as a taken one on the M3 and M4, which fetch its target early.
 //!
 //! A cache or a prefetch buffer shortens it, to nothing at best: the least is without wait states.
 
@@ -29,7 +29,7 @@ impl Flash {
         self.wait_states * (lines + 2 * loaded_words(code.0, code.1))
     }
 
-    /// Further cycles of a taken branch, a call or a return.
+    /// Further cycles of a call, of a return, or of a branch whose target is fetched.
     pub(crate) const fn jump(self) -> u64 {
         2 * self.wait_states
     }

@@ -78,6 +78,15 @@ impl Graph {
         self.nodes.get(&from).is_some_and(|node| from + node.size == to)
     }
 
+    /// Whether the target of a branch is fetched on the way from one instruction to another, be it taken or not.
+    pub fn fetches_target(&self, from: u32, to: u32) -> bool {
+        let branches = |node: &Node| {
+            matches!(Instruction::decode(from, node.code.0, node.code.1).flow, Flow::Branch { .. })
+                && node.calls.is_none()
+        };
+        !self.goes_on(from, to) || self.nodes.get(&from).is_some_and(branches)
+    }
+
     fn name(&self) -> String {
         self.function.readable()
     }

@@ -62,7 +62,8 @@ pub struct Instruction {
     pub stack: Stack,
 }
 
-const SP: u16 = 13;
+use crate::operands::{SP, is_table};
+
 const LR: u16 = 14;
 /// The program counter.
 pub const PC: u16 = 15;
@@ -243,7 +244,7 @@ fn several(first: u16, second: u16) -> (Flow, Stack) {
 /// LDRD and STRD, A7.7.50 and A7.7.166; exclusive accesses; TBB and TBH, A7.7.185.
 fn dual(first: u16, second: u16) -> (Flow, Stack) {
     let base = first & 0xf;
-    if first & 0xfff0 == 0xe8d0 && second & 0xffe0 == 0xf000 {
+    if is_table(first, second) {
         return (Flow::Table { wide: second & 0x10 != 0, base }, Stack::Same);
     }
     if base != SP || first & 0x20 == 0 {

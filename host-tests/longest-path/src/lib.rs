@@ -5,8 +5,9 @@
 //! - **Instruction**: one of Thumb, as QEMU counts them: one that an `IT` block skips counts too, and so does the `IT`.
 //! - **Turns** of a loop: how often its first instruction is executed for each entry into the loop. A loop must have
 //!   them stated ([`Loops`]); a jump table is read from the code.
-//! - **Cycles**: an interval for each instruction by the manuals' rules ([`Cycles`]), and what a flash memory adds
-//!   ([`Flash`]). The path with the most is sought for itself: it need not be the longest.
+//! - **Cycles**: an interval for each instruction and the one before it, by the manuals' rules and by measurements
+//!   ([`Cycles`]), and what a flash memory adds ([`Flash`]). The path with the most is sought for itself: it need not be
+//!   the longest.
 //! - **Stack**: bytes between the stack pointer at the call and its lowest value, callees included.
 //!
 //! A function that cannot be bounded is refused with the place and the reason ([`Refusal`]): a call or jump through a
@@ -15,8 +16,8 @@
 //! Assumed: functions return to their caller, as the procedure call standard demands (Arm IHI 0042), and no exception
 //! is taken. Encodings are those of the Armv7-M manual (Arm DDI 0403E).
 //!
-//! Of an instruction only its length, its effect on the program counter and that on the stack pointer are decoded. A
-//! disassembler is not needed for it: `capstone` takes a C compiler and a minute of processor time to build.
+//! Of an instruction its length, its effect on the program counter and on the stack pointer and its registers are
+//! decoded. A disassembler is not needed for it: `capstone` takes a C compiler and a minute of processor time to build.
 
 mod bound;
 mod code;
@@ -25,6 +26,8 @@ mod flash;
 mod graph;
 mod instruction;
 mod loops;
+mod neighbours;
+mod operands;
 mod path;
 mod refusal;
 

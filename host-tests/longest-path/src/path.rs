@@ -36,29 +36,30 @@ struct Best {
 pub struct Longest(BTreeMap<u32, Best>);
 
 impl Longest {
-    /// Through the elements. They have the `weight` of each instruction, its callee included, `jump` for going anywhere
-    /// but to the next instruction, and the `turns` of a loop by its entry.
+    /// Through the elements. They have the `weight` of an instruction behind another, its callee included, and the
+    /// `turns` of a loop by its entry. The first has none before it.
     pub fn through(
         graph: &Graph,
         elements: &[Element],
-        weight: &impl Fn(u32) -> u64,
-        jump: u64,
+        weight: &impl Fn(Option<u32>, u32) -> u64,
         turns: &impl Fn(u32) -> u64,
     ) -> Self {
         let mut longest = Longest(BTreeMap::new());
         for element in elements {
             match element {
                 Element::Instruction(at) => {
-                    let (before, from) = longest.before(graph, *at, jump);
-                    longest.0.insert(*at, Best { weight: before + weight(*at), from, earlier: None });
+                    let (weight, from) = longest.to(graph, *at, weight);
+                    longest.0.insert(*at, Best { weight, from, earlier: None });
                 }
                 Element::Loop { entry, body } => {
-                    let turn = Longest::through(graph, body, weight, jump, turns);
-                    let (before, from) = longest.before(graph, *entry, jump);
-                    let (once, last) = turn.before(graph, *entry, jump);
+                    let turn = Longest::through(graph, body, weight, turns);
+                    let (entered, from) = longest.to(graph, *entry, weight);
+                    let (again, last) = turn.to(graph, *entry, weight);
+                    // each turn's weight is that behind its entry
+                    let first = turn.0.get(entry).map_or(0, |best| best.weight);
                     let repeats = turns(*entry).saturating_sub(1);
                     for (at, best) in &turn.0 {
-                        let weight = before + repeats * once + best.weight;
+                        let weight = entered + repeats * (again - first) + (best.weight - first);
                         longest.0.insert(*at, Best { weight, ..best.clone() });
                     }
                     if let Some(best) = longest.0.get_mut(entry) {
@@ -71,14 +72,11 @@ impl Longest {
         longest
     }
 
-    /// The most instructions before one, and the last of them.
-    fn before(&self, graph: &Graph, at: u32, jump: u64) -> (u64, Option<u32>) {
+    /// The most instructions up to and with one, and the one before it.
+    fn to(&self, graph: &Graph, at: u32, weight: &impl Fn(Option<u32>, u32) -> u64) -> (u64, Option<u32>) {
         let from = graph.nodes.get(&at).into_iter().flat_map(|node| &node.from);
-        let known = from.filter_map(|from| {
-            let jump = if graph.goes_on(*from, at) { 0 } else { jump };
-            Some((self.0.get(from)?.weight + jump, Some(*from)))
-        });
-        known.max_by_key(|(weight, _)| *weight).unwrap_or((0, None))
+        let known = from.filter_map(|from| Some((self.0.get(from)?.weight + weight(Some(*from), at), Some(*from))));
+        known.max_by_key(|(weight, _)| *weight).unwrap_or((weight(None, at), None))
     }
 
     /// The most instructions, and the last of them.

@@ -21,7 +21,7 @@ pub struct Instructions {
     pub min: u64,
     /// Median.
     pub median: u64,
-    /// Most: the worst path.
+    /// Most of the run's inputs, which is no bound.
     pub max: u64,
 }
 
@@ -60,7 +60,7 @@ pub struct Variant {
 }
 
 impl Variant {
-    /// Instructions a second at the worst path.
+    /// Instructions a second, by the most of the run.
     pub fn instructions_per_second(&self) -> f64 {
         self.instructions.max as f64 * f64::from(self.rate_hz)
     }

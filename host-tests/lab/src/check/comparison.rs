@@ -40,7 +40,7 @@ struct Row {
     has_budget: bool,
     /// Whether the file says that there is no bound.
     unbounded: bool,
-    figures: [Figure; 8],
+    figures: [Figure; 6],
 }
 
 /// Costs beside budgets. Displayed as a table, `measured/budget` in every place.
@@ -104,20 +104,17 @@ impl Comparison {
     }
 }
 
-fn figures(cost: &Cost, noted: &Budget) -> [Figure; 8] {
+fn figures(cost: &Cost, noted: &Budget) -> [Figure; 6] {
     let limits = noted.limits();
     let figure = |name, measured, budget, noted| Figure { name, measured: Ok(measured), budget, noted };
     let bound = |name, of: fn(&Bound) -> u64, budget, noted| {
         let measured = cost.bound.as_ref().map(of).map_err(Refusal::to_string);
         Figure { name, measured, budget, noted }
     };
-    let spread = cost.instructions;
     // one limit for both; a stack that is only painted has no other
     let is_bounded = cost.bound.is_ok();
     [
-        figure("least instructions", spread.min.into(), None, None),
-        figure("median instructions", spread.median.into(), None, None),
-        figure("instructions", spread.max.into(), limits.instructions, noted.instructions),
+        figure("median", cost.instructions.median.into(), limits.median, noted.median),
         bound("longest", |bound| bound.instructions, limits.longest, noted.longest),
         figure("flash", cost.sizes.flash(), limits.flash, noted.flash),
         figure("ram", cost.sizes.ram(), limits.ram, noted.ram),
@@ -127,9 +124,9 @@ fn figures(cost: &Cost, noted: &Budget) -> [Figure; 8] {
 }
 
 /// The lines that would make today's figures the budget.
-fn proposal(variant: &str, core: &str, figures: &[Figure; 8]) -> String {
+fn proposal(variant: &str, core: &str, figures: &[Figure; 6]) -> String {
     let (scene, rest) = variant.split_once('/').unwrap_or((variant, ""));
-    let [_, _, limited @ .., bound] = figures;
+    let [limited @ .., bound] = figures;
     let known = limited.iter().filter_map(|figure| Some((figure.name, *figure.measured.as_ref().ok()?)));
     // the stack's limit holds its bound, too
     let deeper = |name| if name == "stack" { bound.measured.clone().unwrap_or(0) } else { 0 };
@@ -142,7 +139,7 @@ impl Display for Comparison {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let width = self.rows.iter().map(|row| row.variant.len()).max().unwrap_or(0).max(7);
         write!(f, "{:width$}  core", "variant")?;
-        for name in ["min", "median", "max", "longest", "flash", "ram", "stack", "stack bound"] {
+        for name in ["median", "longest", "flash", "ram", "stack", "stack bound"] {
             write!(f, "  {name:>13}")?;
         }
         writeln!(f)?;
@@ -194,15 +191,15 @@ mod tests {
 
     #[test]
     fn a_figure_at_its_budget_passes_and_one_more_is_named() {
-        // limits of 7, 904 and 14
-        let within = comparison(&format!("{KEY} = {{ instructions = 6, flash = 821, ram = 6 }}\n"));
+        // limits of 6, 904 and 14
+        let within = comparison(&format!("{KEY} = {{ median = 5, flash = 821, ram = 6 }}\n"));
         assert_eq!(within.count().map(|count| count.passed), Ok(3));
-        let over = comparison(&format!("{KEY} = {{ instructions = 5, flash = 821, stack = 7 }}\n"));
+        let over = comparison(&format!("{KEY} = {{ median = 4, flash = 821, stack = 7 }}\n"));
         let (count, message) = over.count().unwrap_err();
         assert_eq!((count.passed, count.failed), (1, 3));
-        let faults = ["instructions is 7, budget 6", "stack is 16, budget 15", "stack bound is 24, budget 15"];
+        let faults = ["median is 6, budget 5", "stack is 16, budget 15", "stack bound is 24, budget 15"];
         assert_eq!(message, faults.map(|fault| format!("{VARIANT} on m3: {fault}")).join("\n"));
-        assert!(over.to_string().contains("7/6!"), "{over}");
+        assert!(over.to_string().contains("6/5!"), "{over}");
     }
 
     #[test]
@@ -216,7 +213,7 @@ mod tests {
         let found = comparison(&format!("{KEY} = {{ unbounded = true }}\n")).faults();
         assert_eq!(found, [format!("{VARIANT} on m3: longest is 9, and no more `unbounded`; give it a limit")]);
         let refused = |limits: &str| with(&format!("{KEY} = {{ {limits} }}\n"), Err(Refusal::NoFunction { at: 4 }));
-        assert_eq!(refused("instructions = 7, stack = 16").faults(), Vec::<String>::new());
+        assert_eq!(refused("median = 6, stack = 16").faults(), Vec::<String>::new());
         assert_eq!(refused("unbounded = true").faults(), Vec::<String>::new());
         let faults = refused("longest = 9").faults();
         assert!(faults[0].starts_with(&format!("{VARIANT} on m3: longest has a budget, but no bound: ")), "{faults:?}");
@@ -226,13 +223,11 @@ mod tests {
     /// for what nobody notices.
     #[test]
     fn a_figure_that_has_shrunk_is_named() {
-        let room =
-            comparison(&format!("{KEY} = {{ instructions = 8, longest = 10, flash = 995, ram = 20, stack = 32 }}\n"));
+        let room = comparison(&format!("{KEY} = {{ median = 7, longest = 10, flash = 995, ram = 20, stack = 32 }}\n"));
         assert_eq!(room.faults(), Vec::<String>::new());
-        let much =
-            comparison(&format!("{KEY} = {{ instructions = 9, longest = 11, flash = 996, ram = 21, stack = 33 }}\n"));
+        let much = comparison(&format!("{KEY} = {{ median = 8, longest = 11, flash = 996, ram = 21, stack = 33 }}\n"));
         let faults = [
-            "instructions is 7, budgets.toml has 9",
+            "median is 6, budgets.toml has 8",
             "longest is 9, budgets.toml has 11",
             "flash is 904, budgets.toml has 996",
             "ram is 12, budgets.toml has 21",

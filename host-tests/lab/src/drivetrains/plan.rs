@@ -164,7 +164,7 @@ impl Plan {
                 continue;
             };
             let figures = [
-                ("instructions at most", variant.instructions.max, budget.instructions),
+                ("instructions at most", variant.instructions.max, budget.longest),
                 ("stack", variant.stack_bytes, budget.stack),
             ];
             for (name, measured, limit) in figures {

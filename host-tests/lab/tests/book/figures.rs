@@ -25,8 +25,8 @@ fn budget(variant: &str, core: &str) -> Budget {
     budgets.of(variant, core).unwrap_or_else(|| panic!("no budget of {variant} on {core}"))
 }
 
-fn counted(variant: &str, core: &str) -> u64 {
-    budget(variant, core).instructions.unwrap()
+fn median(variant: &str, core: &str) -> u64 {
+    budget(variant, core).median.unwrap()
 }
 
 fn longest(variant: &str, core: &str) -> u64 {
@@ -54,7 +54,7 @@ fn the_instructions_of_a_step_are_those_of_the_bench() {
     ] {
         let rows = rows("README.md", "Which observer");
         let row = rows.iter().find(|row| row[0] == observer).unwrap();
-        assert_eq!(numbers(&row[2]), ["m4f", "m3"].map(|core| counted(bench, core)), "{observer}");
+        assert_eq!(numbers(&row[2]), ["m4f", "m3"].map(|core| longest(bench, core)), "{observer}");
     }
 }
 
@@ -81,7 +81,7 @@ fn the_cost_of_the_hoist_is_that_of_its_image_and_its_tick() {
         rows.iter().zip([("hoist/f32/reduced/10000", "m4f"), ("hoist/fixed/reduced/10000", "m3")])
     {
         let tick = "bench/drive/semi-implicit";
-        assert_eq!(numbers(&row[4]), [counted(tick, core), longest(tick, core)], "{row:?}");
+        assert_eq!(numbers(&row[4]), [median(tick, core), longest(tick, core)], "{row:?}");
         let [flash, ram] = bytes(variant, core);
         assert_eq!(
             [&row[5], &row[6], &row[7]].map(|cell| numbers(cell)),
@@ -106,9 +106,9 @@ fn the_cost_of_all_four_parts_is_that_of_their_images() {
     }
 }
 
-/// The count, the bound and its stack, and the gap in percent between the first two.
+/// The median, the bound and its stack.
 #[test]
-fn the_gaps_are_those_between_counts_and_bounds() {
+fn medians_and_bounds_are_those_of_the_budgets() {
     let images = [
         "bench/drive/semi-implicit",
         "bench/drive/exact",
@@ -117,26 +117,15 @@ fn the_gaps_are_those_between_counts_and_bounds() {
         "generator/NUMBER/diesel/2400",
         "punch-press/NUMBER/mean/10000",
     ];
-    let rows = rows("doc/makers/worst-case.md", "Gap");
+    let rows = rows("doc/makers/worst-case.md", "Median and bound");
+    assert_eq!(rows.len(), 2 * images.len());
     let both = images.iter().flat_map(|image| [("f32", "m4f"), ("fixed", "m3")].map(|of| (image, of)));
     for (row, (image, (number, core))) in rows.iter().zip(both) {
         let image = image.replace("NUMBER", number);
-        let (counted, longest) = (counted(&image, core), longest(&image, core));
-        let gap = (100.0 * (longest - counted) as f64 / longest as f64).round() as u64;
-        assert_eq!(
-            [&row[2], &row[3], &row[4]].map(|cell| numbers(cell)),
-            [[counted], [longest], [gap]],
-            "{image}: {row:?}"
-        );
-        let bound = numbers(&row[5]).last().copied();
+        let expected = [median(&image, core), longest(&image, core)];
+        assert_eq!([&row[2], &row[3]].map(|cell| numbers(cell)), expected.map(|figure| vec![figure]), "{row:?}");
+        let bound = numbers(&row[4]).last().copied();
         assert!(bound.is_none_or(|bound| bound == stack(&image, core)), "{image}: {row:?}");
-    }
-    let functions = ["bench/step/exact", "bench/step/semi-implicit", "bench/step/backlash", "bench/phasor/1"];
-    assert_eq!(rows.len(), 2 * images.len() + functions.len());
-    for (row, function) in rows.iter().skip(2 * images.len()).zip(functions) {
-        let both = ["m4f", "m3"];
-        assert_eq!(numbers(&row[2]), both.map(|core| counted(function, core)), "{row:?}");
-        assert_eq!(numbers(&row[3]), both.map(|core| longest(function, core)), "{row:?}");
     }
 }
 

@@ -101,7 +101,7 @@ pub const ON_NUCLEO: &str = "test-rig/f32/whole/10000";
 /// Whether a variant belongs on a board: floats on cores that have a unit for them, fixed point and the empty variant
 /// on all.
 pub fn belongs(variant: &str, board: &Facts) -> bool {
-    variant.starts_with("empty/") || variant.split('/').nth(1) != Some("f32") || board.target.ends_with("hf")
+    variant.starts_with("empty/") || variant.split('/').nth(1) != Some("f32") || board.has_float_unit()
 }
 
 /// The board with a core (`m4f`), or of that name (`mps2-an386`).

@@ -9,6 +9,9 @@ use std::process::{Command, Stdio};
 /// The program.
 pub const PROGRAM: &str = "qemu-system-arm";
 
+/// The program for 32-bit RISC-V, which runs where it is installed: Debian's package is `qemu-system-misc`.
+pub const RISC_V: &str = "qemu-system-riscv32";
+
 /// A QEMU for Arm.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Emulator {

@@ -26,7 +26,7 @@ use affinity::Pinned;
 use pipes::Pipes;
 use qemu::Qemu;
 
-pub use emulator::{Emulator, PROGRAM as QEMU};
+pub use emulator::{Emulator, PROGRAM as QEMU, RISC_V as QEMU_RISC_V};
 pub use telemetry::Telling;
 
 /// Longest wait for one output: a tick takes microseconds, a stalled machine some seconds.

@@ -2,13 +2,13 @@
 
 use std::fs::{self, File};
 use std::io::{self, ErrorKind};
-use std::process::{ExitStatus, Stdio};
+use std::process::{Command, ExitStatus, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-use super::emulator::{Emulator, PROGRAM};
+use super::emulator::{Emulator, PROGRAM, RISC_V};
 use crate::children::{Folder, Running};
 use crate::image::Image;
 
@@ -26,8 +26,15 @@ impl Qemu {
     /// Starts an image with `directory` as working directory, where its console and QEMU's own words are kept.
     pub fn start(image: &Image, directory: Folder) -> io::Result<Self> {
         let said = File::create(directory.path().join("said"))?;
-        let mut command = Emulator::find().unwrap_or(Emulator::Installed).command();
+        let is_risc_v = image.board.is_risc_v();
+        let (mut command, program) = match is_risc_v {
+            true => (Command::new(RISC_V), RISC_V),
+            false => (Emulator::find().unwrap_or(Emulator::Installed).command(), PROGRAM),
+        };
+        // without it the core starts in firmware
+        let firmware: &[&str] = if is_risc_v { &["-bios", "none"] } else { &[] };
         command
+            .args(firmware)
             .args(["-machine", image.board.name, "-display", "none", "-monitor", "none", "-serial", "none"])
             .args(["-icount", INSTRUCTION_COUNT])
             .args(["-chardev", "file,id=console,path=console"])
@@ -41,7 +48,7 @@ impl Qemu {
         let child = Running::start(&mut command).map_err(|error| match error.kind() {
             ErrorKind::NotFound => io::Error::new(
                 ErrorKind::NotFound,
-                format!("{PROGRAM} is not installed; `cargo driveline setup` installs it or shows how"),
+                format!("{program} is not installed; `cargo driveline setup` installs QEMU for Arm or shows how"),
             ),
             _ => error,
         })?;

@@ -15,8 +15,8 @@ use crate::measure::BENCHES;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Budget {
-    /// Instructions of a tick, counted.
-    pub instructions: Option<u64>,
+    /// Median instructions of a tick, counted.
+    pub median: Option<u64>,
     /// Instructions on the longest path of a tick.
     pub longest: Option<u64>,
     /// Whether the longest path is refused.
@@ -37,7 +37,7 @@ pub struct Budget {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Promised {
-    instructions: Option<u64>,
+    median: Option<u64>,
     longest: Option<u64>,
     flash: Option<u64>,
     ram: Option<u64>,
@@ -64,7 +64,7 @@ impl Budget {
             figure.map(|figure| most(name, figure)).into_iter().chain(promised).min()
         };
         Self {
-            instructions: limit("instructions", self.instructions, promised.instructions),
+            median: limit("median", self.median, promised.median),
             longest: limit("longest", self.longest, promised.longest),
             flash: limit("flash", self.flash, promised.flash),
             ram: limit("ram", self.ram, promised.ram),
@@ -183,10 +183,10 @@ mod tests {
 
     #[test]
     fn figures_are_read_and_may_be_left_out() {
-        let text = format!("[{SCENE}]\n\"{VARIANT}\".m4f = {{ instructions = 12, flash = 900 }}\n");
+        let text = format!("[{SCENE}]\n\"{VARIANT}\".m4f = {{ median = 12, flash = 900 }}\n");
         let budgets = Budgets::parse(&text).unwrap();
         let budget = budgets.of("empty/f32/none/10000", "m4f").unwrap();
-        assert_eq!(budget, Budget { instructions: Some(12), flash: Some(900), ..Budget::default() });
+        assert_eq!(budget, Budget { median: Some(12), flash: Some(900), ..Budget::default() });
         assert_eq!(budgets.of("empty/f32/none/10000", "m3"), None);
     }
 
@@ -194,11 +194,11 @@ mod tests {
     #[test]
     fn a_limit_is_a_tenth_above_its_figure_or_what_is_promised() {
         let text = format!(
-            "[{SCENE}]\n\"{VARIANT}\".m4f = {{ instructions = 55, longest = 155, flash = 905, ram = 48, stack = 100, \
+            "[{SCENE}]\n\"{VARIANT}\".m4f = {{ median = 55, longest = 155, flash = 905, ram = 48, stack = 100, \
              promised = {{ longest = 160, flash = 2000 }} }}\n"
         );
         let limits = Budgets::parse(&text).unwrap().of("empty/f32/none/10000", "m4f").unwrap().limits();
-        assert_eq!((limits.instructions, limits.longest, limits.flash), (Some(61), Some(160), Some(996)));
+        assert_eq!((limits.median, limits.longest, limits.flash), (Some(61), Some(160), Some(996)));
         assert_eq!((limits.ram, limits.stack), (Some(56), Some(110)));
         assert_eq!([155, 3].map(|figure| most("longest", figure)), [163, 4]);
     }

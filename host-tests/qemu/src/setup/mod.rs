@@ -15,9 +15,9 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use driveline_firmware::board::{BOARDS, FURTHER, Facts};
+use driveline_firmware::board::{BOARDS, FURTHER, Facts, RISC_V};
 
-use crate::link::{Emulator, QEMU};
+use crate::link::{Emulator, QEMU, QEMU_RISC_V};
 pub use book::mdbook;
 use packages::{Manager, Rights};
 pub use programs::cargo;
@@ -89,6 +89,11 @@ impl Need {
             Need::Book => "mdbook".into(),
         }
     }
+}
+
+/// Whether RISC-V images can be built and run here; nothing else needs that.
+pub fn has_risc_v() -> bool {
+    on_path(QEMU_RISC_V) && missing(&Need::to_build(RISC_V)).is_empty()
 }
 
 /// Missing prerequisites.

@@ -16,7 +16,7 @@ const FRAME: [f64; 4] = [62.0, 18.0, WIDTH - 20.0, HEIGHT - 48.0];
 pub enum Cost {
     /// Instructions of a tick, the median.
     Tick,
-    /// Instructions of a second, at the worst path.
+    /// Instructions of a second, by the most of the run.
     Second,
 }
 
@@ -39,8 +39,8 @@ impl Cost {
 
     const fn axis(self) -> &'static str {
         match self {
-            Self::Tick => "instructions a tick (median; bar to the worst)",
-            Self::Second => "instructions a second, worst path",
+            Self::Tick => "instructions a tick (median; bar to the most of the run)",
+            Self::Second => "instructions a second, by the most of the run",
         }
     }
 }

@@ -31,7 +31,7 @@ pub fn tiles(report: &Report) -> Vec<Tile> {
         tiles.push(Tile {
             name: "Instructions a tick",
             value: grouped(best.instructions.median as i64),
-            detail: format!("{} on the worst path", grouped(best.instructions.max as i64)),
+            detail: format!("at most {} in the run", grouped(best.instructions.max as i64)),
             bad: false,
         });
         tiles.push(Tile {
