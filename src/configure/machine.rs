@@ -22,9 +22,9 @@ pub struct Rating {
 }
 
 impl Rating {
-    /// Peripheral speed that few motors exceed (m/s); most have 5 to 60 m/s. A rated speed in r/min for rad/s is 9.5
-    /// times too fast.
-    pub const PERIPHERAL_SPEED: f64 = 100.0;
+    /// Peripheral speed of the rotor that few motors exceed (m/s): the machines of the project's firmware have 5 to
+    /// 26 m/s. A rated speed in r/min for rad/s is 9.5 times too fast, and found with 18 of 19 of them.
+    pub const PERIPHERAL_SPEED: f64 = 60.0;
 
     /// The drive holds its torque to 1 % of rated in a tick, as a current-controlled motor does; the load torque
     /// wanders by half of rated in 10 s, so that the observer follows a step of the rated torque in some tens of

@@ -4,7 +4,7 @@
 //! on.
 
 /// What each file beside this one must be told; the sentence of the error, and the file's name.
-const SENTENCES: [(&str, &str); 13] = [
+const SENTENCES: [(&str, &str); 12] = [
     ("negative_inertia", driveline::machine::Error::RotorInertia.message()),
     ("efficiency_out_of_range", driveline::machine::Error::GearEfficiency.message()),
     ("unobservable_pair", driveline::design::Error::Unobservable.message()),
@@ -17,7 +17,6 @@ const SENTENCES: [(&str, &str); 13] = [
     ("limit_below_rated", "RATING: `torque_limit` must be finite and at least `torque`"),
     ("speed_without_unit", "wrapping the expression in `driveline::machine::Speed`"),
     ("number_named_twice", "name the number once and each part without it"),
-    ("parts_in_another_order", "the order is `Drive<Number, Observer, Governor, Fluctuation, Balancer>`"),
 ];
 
 /// What is refused where the type is used, and not in a constant: such a case has to be built, and one that compiles
