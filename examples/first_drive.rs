@@ -13,7 +13,7 @@ impl Machine for Roll {
         .gear(Ratio(5.0), Efficiency(0.97))
         .shaft(Stiffness(9.0e4), Damping(10.0))
         .rotor(Inertia(12.0));
-    const RATING: Rating = Rating { torque: 300.0, speed: 150.0, torque_limit: 550.0 };
+    const RATING: Rating = Rating { torque: Torque(300.0), speed: Speed(150.0), torque_limit: Torque(550.0) };
     const ENCODER: Encoder = Encoder::lines(2048);
     const RATE_HZ: u32 = 10_000;
 }

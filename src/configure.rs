@@ -13,7 +13,7 @@
 //! impl Machine for Roll {
 //!     const CHAIN: Chain = Chain::motor(Inertia(0.35)).shaft(Stiffness(2.0e4), Damping(0.5)).rotor(Inertia(0.05))
 //!         .gear(Ratio(5.0), Efficiency(0.97)).shaft(Stiffness(9.0e4), Damping(10.0)).rotor(Inertia(12.0));
-//!     const RATING: Rating = Rating { torque: 300.0, speed: 150.0, torque_limit: 550.0 };
+//!     const RATING: Rating = Rating { torque: Torque(300.0), speed: Speed(150.0), torque_limit: Torque(550.0) };
 //!     const ENCODER: Encoder = Encoder::lines(2048);
 //!     const RATE_HZ: u32 = 10_000;
 //!     // a derived constant that is named is overridden: here the acceleration of the setpoint (rad/s2)
@@ -69,7 +69,7 @@
 //! # struct Lift;
 //! # impl Machine for Lift {
 //! #     const CHAIN: Chain = Chain::motor(Inertia(0.62)).shaft(Stiffness(900.0), Damping(0.5)).rotor(Inertia(0.35));
-//! #     const RATING: Rating = Rating { torque: 200.0, speed: 150.0, torque_limit: 300.0 };
+//! #     const RATING: Rating = Rating { torque: Torque(200.0), speed: Speed(150.0), torque_limit: Torque(300.0) };
 //! #     const ENCODER: Encoder = Encoder::lines(2048);
 //! #     const RATE_HZ: u32 = 1_000;
 //!     // an empty hook to an overload, on rope of 5 to 30 m where the chain has 12 m
@@ -97,7 +97,7 @@
 //! struct Hoist<const RATE_HZ: u32>;
 //! impl<const RATE_HZ: u32> Machine for Hoist<RATE_HZ> {
 //!     const CHAIN: Chain = Chain::motor(Inertia(0.62)).shaft(Stiffness(900.0), Damping(0.5)).rotor(Inertia(0.35));
-//!     const RATING: Rating = Rating { torque: 200.0, speed: 150.0, torque_limit: 300.0 };
+//!     const RATING: Rating = Rating { torque: Torque(200.0), speed: Speed(150.0), torque_limit: Torque(300.0) };
 //!     const ENCODER: Encoder = Encoder::lines(2048);
 //!     const RATE_HZ: u32 = RATE_HZ;
 //! }
@@ -203,6 +203,7 @@ where
 {
     type Config = ConfigOf<Self>;
     const CONFIG: Self::Config = {
+        M::RATING.check::<M>();
         let config = Config {
             limits: <Limits<N> as Configure<M, N>>::CONFIG,
             observer: O::CONFIG,

@@ -4,7 +4,7 @@ pub use crate::configure::{Machine, Rating};
 pub use crate::design::Encoder;
 pub use crate::drive::{ConfigOf, Drive};
 pub use crate::governor::SpeedLoop;
-pub use crate::machine::{Chain, Damping, Efficiency, Inertia, Ratio, Stiffness};
+pub use crate::machine::{Chain, Damping, Efficiency, Inertia, Ratio, Speed, Stiffness, Torque};
 pub use crate::number::Fixed;
 pub use crate::observer::TwoMassObserver;
 pub use crate::sample::Sample;

@@ -39,7 +39,7 @@
 //! # struct Roll;
 //! # impl Machine for Roll {
 //! #     const CHAIN: Chain = Chain::motor(Inertia(0.35)).shaft(Stiffness(2.0e4), Damping(0.5)).rotor(Inertia(0.48));
-//! #     const RATING: Rating = Rating { torque: 300.0, speed: 150.0, torque_limit: 550.0 };
+//! #     const RATING: Rating = Rating { torque: Torque(300.0), speed: Speed(150.0), torque_limit: Torque(550.0) };
 //! #     const ENCODER: Encoder = Encoder::lines(2048);
 //! #     const RATE_HZ: u32 = 10_000;
 //! # }

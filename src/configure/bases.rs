@@ -147,8 +147,8 @@ impl Rating {
         gear: &Gear,
         speed_loop: &SpeedLoopDesign,
     ) -> Bases {
-        let settings = SpeedLoopSettings { torque_limit: self.torque_limit, ramp: self.speed };
-        let (torque, speed) = (2.0 * self.torque_limit, 1.34 * self.speed);
+        let settings = SpeedLoopSettings { torque_limit: self.torque_limit.0, ramp: self.speed.0 };
+        let (torque, speed) = (2.0 * self.torque_limit.0, 1.34 * self.speed.0);
         let parts = Parts { two_mass, rigid, gear, speed_loop, settings };
         let mut k = 0;
         while k < HELD.len() {

@@ -40,7 +40,7 @@ use crate::settings::{Bases, SpeedLoopSettings};
 /// struct Hoist;
 /// impl Machine for Hoist {
 ///     const CHAIN: Chain = member(2.0, 1.0);
-///     const RATING: Rating = Rating { torque: 200.0, speed: 150.0, torque_limit: 300.0 };
+///     const RATING: Rating = Rating { torque: Torque(200.0), speed: Speed(150.0), torque_limit: Torque(300.0) };
 ///     const ENCODER: Encoder = Encoder::lines(2048);
 ///     const RATE_HZ: u32 = 10_000;
 /// }
@@ -204,7 +204,7 @@ macro_rules! scheduled {
             const CELLS: [[Self::Config; B]; A] = cells!(<Self as Configure<M, $number>>::CONFIG, |i, j| {
                 SpeedLoopConfig::<$number>::new(
                     &M::SPEED_LOOPS[i][j],
-                    SpeedLoopSettings { torque_limit: M::RATING.torque_limit, ramp: M::RAMP },
+                    SpeedLoopSettings { torque_limit: M::RATING.torque_limit.0, ramp: M::RAMP },
                     $bases,
                 )
                 .with_filter(F::CELLS[i][j])

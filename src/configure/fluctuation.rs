@@ -10,7 +10,7 @@ use crate::settings::Bases;
 /// Stops a constant where a cycle, or a turn of a longer one, has fewer ticks at rated speed.
 const fn has_ticks<M: Machine>(least: f64) {
     let turns = M::CYCLE.turns as f64 / M::CYCLE.cycles as f64;
-    let ticks = turns.min(1.0) * TAU / (M::RATING.speed * M::PERIOD);
+    let ticks = turns.min(1.0) * TAU / (M::RATING.speed.0 * M::PERIOD);
     assert!(
         !(ticks < least),
         "at rated speed a cycle has fewer than 96 ticks, or 160 beside a waveform, the least for its extremes: raise \

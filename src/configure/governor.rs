@@ -36,7 +36,7 @@ pub trait HasBarredSpeeds<const K: usize>: Machine {
     const BARRED: BarredSpeeds<K>;
     /// Acceleration through them (rad/s2): nine tenths of the torque limit on the inertia of the two masses.
     const QUICK_RAMP: f64 =
-        0.9 * Self::RATING.torque_limit / (Self::TWO_MASS.motor_inertia + Self::TWO_MASS.load_inertia);
+        0.9 * Self::RATING.torque_limit.0 / (Self::TWO_MASS.motor_inertia + Self::TWO_MASS.load_inertia);
 }
 
 /// A machine whose largest torque depends on the speed.
@@ -109,7 +109,7 @@ impl<M: Machine, N: Number> Configure<M, N> for CycleAverage {
     // at rated speed: slower than that the cycle lasts longer
     const LOOP: LoopPart = {
         let turns = M::CYCLE.turns as f64 / M::CYCLE.cycles as f64;
-        let averaging = Averaging::Cycle(core::f64::consts::TAU * turns / M::RATING.speed);
+        let averaging = Averaging::Cycle(core::f64::consts::TAU * turns / M::RATING.speed.0);
         LoopPart { averaging, ..LoopPart::NONE }
     };
 }
@@ -141,7 +141,7 @@ macro_rules! governors {
                 GainSource::Governor(design) => Gains::<$number>::new(design, M::RAMP, $bases),
             };
             [] HasDroop, Droop => DroopConfig<$number>,
-                DroopConfig::<$number>::new(M::DROOP, M::RATING.speed, M::RATING.torque, $bases);
+                DroopConfig::<$number>::new(M::DROOP, M::RATING.speed.0, M::RATING.torque.0, $bases);
             [K] HasBarredSpeeds<K>, Barred<K> => BarredConfig<$number, K>,
                 BarredConfig::<$number, K>::new(&M::BARRED, M::QUICK_RAMP, M::PERIOD, $bases);
             [] Machine, FeedForward => FeedForwardConfig<$number>,
@@ -154,9 +154,9 @@ macro_rules! governors {
                 ActiveDampingConfig::<$number>::new(&M::SPEED_LOOP, $bases),
                 LoopPart { damping: M::SPEED_LOOP.damping, ..LoopPart::NONE };
             [] Machine, SymmetricLimit => SymmetricLimitConfig<$number>,
-                SymmetricLimitConfig::<$number>::new(M::RATING.torque_limit, $bases);
+                SymmetricLimitConfig::<$number>::new(M::RATING.torque_limit.0, $bases);
             [] Machine, TorqueRange => TorqueRangeConfig<$number>,
-                TorqueRangeConfig::<$number>::new(M::LEAST_TORQUE, M::RATING.torque_limit, $bases);
+                TorqueRangeConfig::<$number>::new(M::LEAST_TORQUE, M::RATING.torque_limit.0, $bases);
             [K] HasTorqueCurve<K>, Curve<K> => CurveConfig<$number, K>,
                 CurveConfig::<$number, K>::new(&M::CURVE, M::LEAST_TORQUE, $bases);
             [] HasSequencer, Sequencer => SequencerConfig<$number>,
@@ -182,7 +182,7 @@ macro_rules! governors {
                     "the speed loop's design and its governor differ in the lag of the damping: give the design \
                         with_damping_lag and the governor DampingLag, or neither"
                 );
-                let settings = SpeedLoopSettings { torque_limit: M::RATING.torque_limit, ramp: M::RAMP };
+                let settings = SpeedLoopSettings { torque_limit: M::RATING.torque_limit.0, ramp: M::RAMP };
                 SpeedLoopConfig::<$number>::new(&M::SPEED_LOOP, settings, $bases).with_filter(F::CONFIG)
             };
         }

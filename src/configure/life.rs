@@ -9,9 +9,9 @@ pub trait HasLife: Machine {
     /// S-N curve of the shaft.
     const SHAFT: WoehlerLine;
     /// The torque to which the classes reach (N m), either way.
-    const CLASSED_TORQUE: f64 = 1.5 * Self::RATING.torque_limit;
+    const CLASSED_TORQUE: f64 = 1.5 * Self::RATING.torque_limit.0;
     /// The torque beyond which time is counted (N m), either way.
-    const OVERLOAD: f64 = Self::RATING.torque_limit;
+    const OVERLOAD: f64 = Self::RATING.torque_limit.0;
 }
 
 macro_rules! rainflow {

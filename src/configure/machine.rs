@@ -5,28 +5,33 @@ use crate::design::{
     Actuator, BacklashDesign, BacklashTuning, Disturbance, Encoder, Rate, RigidDesign, Robustness, SpeedLoopDesign,
     SpeedLoopTuning, Tolerance, TwoMassDesign,
 };
-use crate::machine::{Chain, Match, TwoMass};
+use crate::machine::{Chain, Match, Speed, Torque, TwoMass};
 use crate::settings::{Bases, Cycle, Gear, LoadGear, Screening};
 
-/// Rating of the motor.
+/// Rating of the motor: a rated torque, a rated speed and the torque limit, each above zero, the limit at least the
+/// rated torque. A drive whose machine breaks one of these rules is a compile error that names the field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Rating {
-    /// Rated torque (N m).
-    pub torque: f64,
-    /// Rated speed (rad/s).
-    pub speed: f64,
-    /// Largest torque that may be commanded, either way (N m).
-    pub torque_limit: f64,
+    /// Rated torque.
+    pub torque: Torque,
+    /// Rated speed: `Speed(155.0)` in rad/s, `Speed::rpm(1480.0)` in r/min.
+    pub speed: Speed,
+    /// Largest torque that may be commanded, either way.
+    pub torque_limit: Torque,
 }
 
 impl Rating {
+    /// Peripheral speed of the rotor that few motors exceed (m/s): the machines of the project's firmware have 5 to
+    /// 26 m/s. A rated speed in r/min for rad/s is 9.5 times too fast, and found with 18 of 19 of them.
+    pub const PERIPHERAL_SPEED: f64 = 60.0;
+
     /// The drive holds its torque to 1 % of rated in a tick, as a current-controlled motor does; the load torque
     /// wanders by half of rated in 10 s, so that the observer follows a step of the rated torque in some tens of
     /// milliseconds.
     #[must_use]
     pub const fn disturbance(&self) -> Disturbance {
-        Disturbance { torque_accuracy: 0.01 * self.torque, load_torque_step: 0.5 * self.torque, within: 10.0 }
+        Disturbance { torque_accuracy: 0.01 * self.torque.0, load_torque_step: 0.5 * self.torque.0, within: 10.0 }
     }
 
     /// Limits of a sample: torque two thirds over its limit, which no healthy drive reaches; setpoint a fifth over
@@ -38,9 +43,9 @@ impl Rating {
     /// At compile time in a constant, for an encoder without lines or a rate that is not positive.
     #[must_use]
     pub const fn screening(&self, encoder: Encoder, rate: Rate) -> Screening {
-        let setpoint = 1.2 * self.speed;
+        let setpoint = 1.2 * self.speed.0;
         Screening {
-            torque: 1.67 * self.torque_limit,
+            torque: 1.67 * self.torque_limit.0,
             setpoint,
             innovation: core::f64::consts::TAU / 128.0,
             frozen_turn: 2.0 * count(encoder),
@@ -52,8 +57,34 @@ impl Rating {
     /// this inertia (kg m2) by half of the torque limit, so that the other half remains for the load.
     #[must_use]
     pub const fn ramp(&self, inertia: f64) -> f64 {
-        let (usual, possible) = (self.speed / 2.0, 0.5 * self.torque_limit / inertia);
+        let (usual, possible) = (self.speed.0 / 2.0, 0.5 * self.torque_limit.0 / inertia);
         if usual < possible { usual } else { possible }
+    }
+
+    /// Whether the rotor of a motor of this inertia (kg m2) has at most this peripheral speed (m/s) at rated speed,
+    /// taken as a steel cylinder three radii long.
+    #[must_use]
+    pub const fn is_within(&self, inertia: f64, peripheral_speed: f64) -> bool {
+        // J = 1.5 pi rho r^5
+        let radius = inertia / (1.5 * core::f64::consts::PI * 7_850.0);
+        !(fifth(self.speed.0) * radius > fifth(peripheral_speed))
+    }
+
+    /// Stops the compilation where a field cannot be.
+    pub(super) const fn check<M: Machine>(&self) {
+        let Rating { torque: Torque(torque), speed: Speed(speed), torque_limit: Torque(limit) } = *self;
+        assert!(torque > 0.0 && torque.is_finite(), "RATING: `torque` must be positive and finite");
+        assert!(speed > 0.0 && speed.is_finite(), "RATING: `speed` must be positive and finite");
+        assert!(
+            limit >= torque && limit.is_finite(),
+            "RATING: `torque_limit` must be finite and at least `torque`: it is the largest torque that the drive may \
+            command"
+        );
+        assert!(
+            self.is_within(M::CHAIN.masses()[0], M::PERIPHERAL_SPEED),
+            "RATING: at this `speed` (rad/s) the peripheral speed of the motor's rotor would be over \
+            `PERIPHERAL_SPEED`: write r/min as `Speed::rpm(1480.0)`, or name `PERIPHERAL_SPEED` for so fast a motor"
+        );
     }
 }
 
@@ -65,7 +96,8 @@ impl Rating {
 pub trait Machine {
     /// The machine, from the motor to the load.
     const CHAIN: Chain;
-    /// Rating of the motor.
+    /// Rating of the motor: a rated torque, a rated speed and the torque limit, each above zero, the limit at least the
+    /// rated torque. A drive whose machine breaks one of these rules is a compile error that names the field.
     const RATING: Rating;
     /// The encoder on the motor's shaft, with its accuracy where its data sheet states one.
     const ENCODER: Encoder;
@@ -74,6 +106,9 @@ pub trait Machine {
 
     /// The tick rate.
     const RATE: Rate = Rate::hz(Self::RATE_HZ);
+    /// Largest plausible peripheral speed of the motor's rotor (m/s): [`Rating::is_within`] with the first inertia of
+    /// the chain.
+    const PERIPHERAL_SPEED: f64 = Rating::PERIPHERAL_SPEED;
     /// Time between two ticks (s).
     const PERIOD: f64 = period(Self::RATE);
 
@@ -149,6 +184,11 @@ pub trait Machine {
     const CYCLE: Cycle = Cycle::TURN;
     /// Cycles in a window of the waveform.
     const CYCLES: u32 = 16;
+}
+
+/// The fifth power.
+const fn fifth(x: f64) -> f64 {
+    x * x * x * x * x
 }
 
 /// Angle of a count of the encoder (rad).

@@ -40,6 +40,14 @@ quantity! {
     Density,
 }
 
+impl Speed {
+    /// From r/min.
+    #[must_use]
+    pub const fn rpm(speed: f64) -> Speed {
+        Speed(speed * (core::f64::consts::TAU / 60.0))
+    }
+}
+
 /// Falls of a rope: how many parts carry the load, at least 1. The load travels `1/falls` of the rope wound by the
 /// drum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

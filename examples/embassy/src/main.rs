@@ -29,7 +29,7 @@ use panic_halt as _;
 struct Roll;
 impl Machine for Roll {
     const CHAIN: Chain = Chain::motor(Inertia(0.35)).shaft(Stiffness(2.0e4), Damping(0.5)).rotor(Inertia(0.48));
-    const RATING: Rating = Rating { torque: 300.0, speed: 150.0, torque_limit: 550.0 };
+    const RATING: Rating = Rating { torque: Torque(300.0), speed: Speed(150.0), torque_limit: Torque(550.0) };
     const ENCODER: Encoder = Encoder::lines(2048);
     const RATE_HZ: u32 = 10_000;
 }
@@ -65,7 +65,7 @@ async fn control(encoder: Qei<'static, TIM3>, mut output: DacChannel<'static, Bl
         let setpoint = f32::from_bits(SETPOINT.load(Ordering::Relaxed));
         let command = drive.tick(&CONFIG, &Sample::si::<Roll>(angle(), torque, setpoint));
         torque = command.torque_si::<Roll>();
-        let share = torque / Roll::RATING.torque_limit as f32;
+        let share = torque / Roll::RATING.torque_limit.0 as f32;
         output.set(Value::Bit12Right((2048.0 + 2047.0 * share) as u16));
     }
 }
@@ -107,7 +107,7 @@ async fn main(_spawner: Spawner) {
         let now = button.is_high();
         if now && !pressed {
             running = !running;
-            let setpoint = if running { 0.1 * Roll::RATING.speed as f32 } else { 0.0 };
+            let setpoint = if running { 0.1 * Roll::RATING.speed.0 as f32 } else { 0.0 };
             SETPOINT.store(setpoint.to_bits(), Ordering::Relaxed);
         }
         pressed = now;

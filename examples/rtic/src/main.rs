@@ -21,7 +21,7 @@ mod app {
     struct Roll;
     impl Machine for Roll {
         const CHAIN: Chain = Chain::motor(Inertia(0.35)).shaft(Stiffness(2.0e4), Damping(0.5)).rotor(Inertia(0.48));
-        const RATING: Rating = Rating { torque: 300.0, speed: 150.0, torque_limit: 550.0 };
+        const RATING: Rating = Rating { torque: Torque(300.0), speed: Speed(150.0), torque_limit: Torque(550.0) };
         const ENCODER: Encoder = Encoder::lines(2048);
         const RATE_HZ: u32 = 10_000;
     }
@@ -86,7 +86,7 @@ mod app {
 
     /// Gives a torque (N m).
     fn put(torque: f32) {
-        let share = torque / Roll::RATING.torque_limit as f32;
+        let share = torque / Roll::RATING.torque_limit.0 as f32;
         DAC1.dhr12r(0).write(|r| r.set_dhr((2048.0 + 2047.0 * share) as u16));
     }
 
@@ -112,7 +112,7 @@ mod app {
             if now && !pressed {
                 running = !running;
                 context.shared.setpoint.lock(|setpoint| {
-                    *setpoint = if running { 0.1 * Roll::RATING.speed as f32 } else { 0.0 };
+                    *setpoint = if running { 0.1 * Roll::RATING.speed.0 as f32 } else { 0.0 };
                 });
             }
             pressed = now;

@@ -42,10 +42,14 @@ macro_rules! governors {
             const GAINS: driveline::governor::Gains<N> = parts::$run::GAINS;
             macro_rules! one {
                 ($name:literal, $shape:ty, $added:ty, $limit:ty, $modes:ty, $s:expr, $f:expr, $l:expr, $m:expr) => {
-                    let config =
-                        SpeedGovernorConfig {
-                            gains: GAINS, shape: $s, compensation: $f, limit: $l, sequence: $m, filter: ()
-                        };
+                    let config = SpeedGovernorConfig {
+                        gains: GAINS,
+                        shape: $s,
+                        compensation: $f,
+                        limit: $l,
+                        sequence: $m,
+                        filter: (),
+                    };
                     let governor = <StateOf<SpeedGovernor<$shape, $added, $limit, $modes>, N>>::default();
                     bench.measure($name, (&config, governor), input::<N>, command);
                 };
@@ -61,10 +65,14 @@ macro_rules! governors {
             one!("governor/damping", (), ActiveDamping, SymmetricLimit, (), (), p::DAMPING, p::SYMMETRIC, ());
             one!("governor/curve", (), (), Curve<4>, (), (), (), p::CURVE, ());
             one!("governor/slew", (), (), Slew<SymmetricLimit>, (), (), (), p::SLEW, ());
-            let config =
-                SpeedGovernorConfig {
-                    gains: GAINS, shape: (), compensation: (), limit: p::SYMMETRIC, sequence: (), filter: p::MEAN
-                };
+            let config = SpeedGovernorConfig {
+                gains: GAINS,
+                shape: (),
+                compensation: (),
+                limit: p::SYMMETRIC,
+                sequence: (),
+                filter: p::MEAN,
+            };
             type Average = MovingAverage<{ generator::FIRING }>;
             let governor = <StateOf<SpeedGovernor<(), (), SymmetricLimit, (), Average>, N>>::default();
             bench.measure("governor/mean", (&config, governor), input::<N>, command);
@@ -76,7 +84,7 @@ macro_rules! governors {
                 compensation: (),
                 limit: p::SYMMETRIC,
                 sequence: p::WIDE,
-filter: (),
+                filter: (),
             };
             bench.measure("governor/modes", (&config, modes), input::<N>, command);
             let mut whole = <StateOf<generator::Governor, N>>::default();

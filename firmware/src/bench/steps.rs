@@ -39,7 +39,7 @@ pub fn fixed<B: Board>(bench: &mut Bench<'_, B>) {
 type AtTenKilohertz<S> = Of<Hoist<10_000>, S>;
 
 /// The observer of backlash on a machine that rattles through its gap: every regime, every crossing.
-fn backlash<B: Board, N: Gap + 'static, V: GovernedVariant<Number = N, Observer = BacklashObserver<N>>>(
+fn backlash<B: Board, N: Gap + 'static, V: GovernedVariant<Number = N, Observer = BacklashObserver>>(
     bench: &mut Bench<'_, B>,
     number: impl Fn(f32) -> N,
 ) {

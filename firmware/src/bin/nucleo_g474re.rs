@@ -123,7 +123,7 @@ fn TIM6_DAC() {
 
 #[entry]
 fn main() -> ! {
-    let full_scale = const { FullScale::<f32>::new(full_scale(TestRig::RATING.torque_limit)) };
+    let full_scale = const { FullScale::<f32>::new(full_scale(TestRig::RATING.torque_limit.0)) };
     let (nucleo, Beside { vibration, serial, button, reset }) = Nucleo::torque_input(test_rig::COUNTS, full_scale);
     let control = Control {
         scene: Selected::start(),

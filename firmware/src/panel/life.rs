@@ -93,7 +93,7 @@ impl<M: HasLife> LifePanel<M> {
         let number = match key {
             DAMAGE => self.life.damage,
             REMAINING => self.life.remaining(),
-            AMPLIFICATION => self.life.largest / M::RATING.torque,
+            AMPLIFICATION => self.life.largest / M::RATING.torque.0,
             TIME_ABOVE => self.life.time_above,
             _ => 0.0,
         };

@@ -104,14 +104,14 @@ impl<N: Units<Coefficient: Magnitude>, M: NoLoadRun> NoLoadLearner<N, M> {
     const TORQUE: TorqueConstantConfig = TorqueConstantConfig {
         window: (M::WINDOW / Self::EVERY) as u32,
         pause: (PAUSE / Self::EVERY) as u32,
-        ..TorqueConstantConfig::new(M::RATING.torque, M::RATING.speed, [0.5, 1.0], Self::EVERY)
+        ..TorqueConstantConfig::new(M::RATING.torque.0, M::RATING.speed.0, [0.5, 1.0], Self::EVERY)
     };
     const RUN_UP: RunUpConfig = RunUpConfig {
         window: (M::WINDOW / Self::EVERY) as u32,
         pause: (PAUSE / Self::EVERY) as u32,
         ..RunUpConfig::new(
-            M::RATING.torque,
-            M::RATING.speed,
+            M::RATING.torque.0,
+            M::RATING.speed.0,
             [M::RATIO[0] * M::INERTIA, M::RATIO[1] * M::INERTIA],
             Self::EVERY,
         )
@@ -126,7 +126,7 @@ impl<N: Units<Coefficient: Magnitude>, M: NoLoadRun> NoLoadLearner<N, M> {
             (M::RATIO[1] * M::INERTIA + M::TEST_WEIGHT / GAIN[0]) as f32,
         ],
         window: (2.0 * core::f64::consts::TAU / M::TWO_MASS.resonance() / Self::EVERY) as u32,
-        torque: 0.4 * M::RATING.torque as f32,
+        torque: 0.4 * M::RATING.torque.0 as f32,
         ..Self::RUN_UP
     };
 

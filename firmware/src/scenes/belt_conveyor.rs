@@ -17,7 +17,7 @@ use driveline::configure::{HasSlew, Machine, Rating};
 use driveline::design::{Disturbance, Encoder, RigidDesign, SpeedLoopDesign};
 use driveline::governor::{Slew, SpeedGovernor, TorqueRange};
 use driveline::machine::{
-    Chain, Damping, Diameter, Efficiency, Falls, Inertia, LinearDamping, Mass, Ratio, Stiffness, Torque,
+    Chain, Damping, Diameter, Efficiency, Falls, Inertia, LinearDamping, Mass, Ratio, Speed, Stiffness, Torque,
 };
 use driveline::observer::{RigidObserver, SemiImplicitObserver};
 
@@ -35,7 +35,7 @@ impl Machine for BeltConveyor {
         .drum(Diameter(0.8))
         .damped_rope(Falls(1), Stiffness(6.0e5), LinearDamping(4.0e3))
         .driven(Mass(60_000.0));
-    const RATING: Rating = Rating { torque: 485.0, speed: 155.0, torque_limit: 730.0 };
+    const RATING: Rating = Rating { torque: Torque(485.0), speed: Speed(155.0), torque_limit: Torque(730.0) };
     const ENCODER: Encoder = Encoder::lines(COUNTS / 4);
     const RATE_HZ: u32 = 1_000;
     /// The resistance to motion hardly changes while the belt runs.
@@ -45,7 +45,7 @@ impl Machine for BeltConveyor {
     const RIGID_OBSERVER: RigidDesign =
         Self::CHAIN.rigid().observer(Self::RATE, Self::ENCODER, Disturbance { within: 1.0, ..Self::DISTURBANCE });
     /// The soft start.
-    const RAMP: f64 = Self::RATING.speed / 12.0;
+    const RAMP: f64 = Self::RATING.speed.0 / 12.0;
 }
 
 /// The same conveyor, whose start the torque shapes: the setpoint is there within an eighth of a second, and the motor
@@ -60,14 +60,14 @@ impl Machine for TorqueStart {
     const DISTURBANCE: Disturbance = BeltConveyor::DISTURBANCE;
     /// The design's proportional and integral gains, without its damping.
     const SPEED_LOOP: SpeedLoopDesign = SpeedLoopDesign { damping: 0.0, ..BeltConveyor::SPEED_LOOP };
-    const RAMP: f64 = 8.0 * Self::RATING.speed;
+    const RAMP: f64 = 8.0 * Self::RATING.speed.0;
 }
 
 /// Dynamic factor of the strand that the start is allowed.
 pub const ALLOWED: f64 = 1.2;
 
 impl HasSlew for TorqueStart {
-    const SLEW: f64 = Self::TWO_MASS.slew_for_factor(Torque(Self::RATING.torque_limit), ALLOWED);
+    const SLEW: f64 = Self::TWO_MASS.slew_for_factor(Torque(Self::RATING.torque_limit.0), ALLOWED);
 }
 
 /// Counts of the encoder on a turn.

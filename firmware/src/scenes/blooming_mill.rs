@@ -18,7 +18,7 @@ use driveline::configure::{HasBacklash, Machine, Rating};
 use driveline::design::{BacklashTakeUpTuning, Disturbance, Encoder, SpeedLoopDesign, SpeedLoopTuning};
 use driveline::drive::Drive;
 use driveline::governor::{BacklashTakeUp, SpeedGovernor, SymmetricLimit};
-use driveline::machine::{Chain, Damping, Gap, Inertia, Match, Stiffness, TwoMass};
+use driveline::machine::{Chain, Damping, Gap, Inertia, Match, Speed, Stiffness, Torque, TwoMass};
 use driveline::observer;
 use driveline::settings::{Bases, Screening};
 
@@ -40,7 +40,7 @@ impl Machine for BloomingMill {
         .backlash(Gap(GAP))
         .rotor(Inertia(2.2e4));
     /// 50 r/min.
-    const RATING: Rating = Rating { torque: 1.34e6, speed: 5.24, torque_limit: 2.5 * 1.34e6 };
+    const RATING: Rating = Rating { torque: Torque(1.34e6), speed: Speed(5.24), torque_limit: Torque(2.5 * 1.34e6) };
     /// As direct drives have.
     const ENCODER: Encoder = Encoder::lines(8192);
     const RATE_HZ: u32 = 10_000;
@@ -48,7 +48,7 @@ impl Machine for BloomingMill {
     const TWO_MASS: TwoMass = Self::CHAIN.reduce(Match::TextbookCut(1));
     /// The rolling torque may come and go by as much as rated within a second.
     const DISTURBANCE: Disturbance =
-        Disturbance { load_torque_step: Self::RATING.torque, within: 5.0, ..Self::RATING.disturbance() };
+        Disturbance { load_torque_step: Self::RATING.torque.0, within: 5.0, ..Self::RATING.disturbance() };
     /// The speed follows within a tenth of a second. The motor outweighs the rolls five times, so its torque can damp
     /// the spindles but little.
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.12, damping: 1.0, shaft_damping: 0.03 };
@@ -57,11 +57,11 @@ impl Machine for BloomingMill {
         SpeedLoopDesign { damping: 0.0, ..Self::TWO_MASS.speed_loop(Self::RATE, Self::TUNING) };
     /// The governor reverses as fast as the motor can: rated speed in a quarter of a second takes nine tenths of its
     /// largest torque.
-    const RAMP: f64 = 4.0 * Self::RATING.speed;
-    const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit, 2.0 * Self::RATING.speed);
+    const RAMP: f64 = 4.0 * Self::RATING.speed.0;
+    const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit.0, 2.0 * Self::RATING.speed.0);
     /// In a quarter of a second the motor turns by less than half a turn.
     const SCREENING: Screening = Screening {
-        setpoint: 1.5 * Self::RATING.speed,
+        setpoint: 1.5 * Self::RATING.speed.0,
         max_coast: Self::RATE_HZ / 4,
         ..Self::RATING.screening(Self::ENCODER, Self::RATE)
     };
@@ -74,11 +74,11 @@ impl Machine for BloomingMill {
 /// speed through an open gap: braked twice as much, a motor of 1.1 times the inertia swings through it for ever.
 impl HasBacklash for BloomingMill {
     const TAKING_UP: BacklashTakeUpTuning = BacklashTakeUpTuning {
-        impact: 2.0 * Self::RATING.torque,
-        torque: 0.6 * Self::RATING.torque,
-        rise: 3.0 * Self::RATING.torque,
-        fall: 6.0 * Self::RATING.torque,
-        max_torque: Self::RATING.torque_limit,
+        impact: 2.0 * Self::RATING.torque.0,
+        torque: 0.6 * Self::RATING.torque.0,
+        rise: 3.0 * Self::RATING.torque.0,
+        fall: 6.0 * Self::RATING.torque.0,
+        max_torque: Self::RATING.torque_limit.0,
         damping: 0.02,
     };
 }

@@ -34,15 +34,15 @@ pub const HELD: f64 = 3_000.0 * 9.80665 * 0.8 / (2.0 * 2.0 * 31.5);
 pub const HOIST: TestSettings = TestSettings {
     rate: Rate::hz(RATE_HZ),
     encoder: Hoist::<RATE_HZ>::ENCODER,
-    torque: 0.25 * Hoist::<RATE_HZ>::RATING.torque,
-    shaft_torque: 0.5 * Hoist::<RATE_HZ>::RATING.torque,
+    torque: 0.25 * Hoist::<RATE_HZ>::RATING.torque.0,
+    shaft_torque: 0.5 * Hoist::<RATE_HZ>::RATING.torque.0,
     speed: 12.0,
     // 6 m of the load's way
     travel: 950.0,
     held: HELD,
     inertia: 0.62,
     band: [2.5, 12.0],
-    torque_accuracy: 0.01 * Hoist::<RATE_HZ>::RATING.torque,
+    torque_accuracy: 0.01 * Hoist::<RATE_HZ>::RATING.torque.0,
     delay: 0.0,
 };
 
@@ -50,14 +50,14 @@ pub const HOIST: TestSettings = TestSettings {
 pub const MILL: TestSettings = TestSettings {
     rate: Rate::hz(RATE_HZ),
     encoder: BloomingMill::ENCODER,
-    torque: 0.3 * BloomingMill::RATING.torque,
-    shaft_torque: 0.5 * BloomingMill::RATING.torque,
+    torque: 0.3 * BloomingMill::RATING.torque.0,
+    shaft_torque: 0.5 * BloomingMill::RATING.torque.0,
     speed: 3.0,
     travel: 1.0e4,
     held: 0.0,
     inertia: 1.1e5,
     band: [6.0, 30.0],
-    torque_accuracy: 0.01 * BloomingMill::RATING.torque,
+    torque_accuracy: 0.01 * BloomingMill::RATING.torque.0,
     delay: 0.0,
 };
 
@@ -65,14 +65,14 @@ pub const MILL: TestSettings = TestSettings {
 pub const SPINDLE: TestSettings = TestSettings {
     rate: Rate::hz(RATE_HZ),
     encoder: Spindle::ENCODER,
-    torque: 0.4 * Spindle::RATING.torque,
-    shaft_torque: 0.5 * Spindle::RATING.torque,
+    torque: 0.4 * Spindle::RATING.torque.0,
+    shaft_torque: 0.5 * Spindle::RATING.torque.0,
     speed: 200.0,
     travel: 1.0e5,
     held: 0.0,
     inertia: 0.012,
     band: [200.0, 1_000.0],
-    torque_accuracy: 0.01 * Spindle::RATING.torque,
+    torque_accuracy: 0.01 * Spindle::RATING.torque.0,
     delay: 0.0,
 };
 

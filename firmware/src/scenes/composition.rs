@@ -23,12 +23,7 @@ impl<D: OverWords> Beside<D> for AtWork {
     }
 
     #[inline(always)]
-    fn tick(
-        &mut self,
-        drive: &mut D,
-        config: &ConfigOf<D>,
-        input: &Input,
-    ) -> Output {
+    fn tick(&mut self, drive: &mut D, config: &ConfigOf<D>, input: &Input) -> Output {
         let command = drive.tick(config, &sample(input));
         output(&command, &drive.estimate(config))
     }
@@ -144,7 +139,8 @@ impl<N: Number, O: Part<N, State: Observer<N>>> ByHand<N, O> {
             self.observer.resync(sample.angle);
             self.missed = ONE;
         } else {
-            let count = <StateOf<O, N>>::speed_of_turn(&self.config.observer, N::ZERO.less_turn(limits.frozen_turn)).magnitude();
+            let count = <StateOf<O, N>>::speed_of_turn(&self.config.observer, N::ZERO.less_turn(limits.frozen_turn))
+                .magnitude();
             let known = self.observer.estimate(&self.config.observer).motor_speed;
             if (speed - known).exceeds(count) {
                 self.observer = <StateOf<O, N>>::steady(&self.config.observer, sample.angle, torque, speed);

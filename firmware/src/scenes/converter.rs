@@ -16,7 +16,7 @@
 use driveline::configure::{HasBacklash, Machine, Rating};
 use driveline::design::{BacklashTakeUpTuning, BacklashTuning, Disturbance, Encoder, SpeedLoopDesign, SpeedLoopTuning};
 use driveline::governor::{SpeedGovernor, SymmetricLimit};
-use driveline::machine::{Chain, Damping, Efficiency, Gap, Inertia, Match, Ratio, Stiffness, TwoMass};
+use driveline::machine::{Chain, Damping, Efficiency, Gap, Inertia, Match, Ratio, Speed, Stiffness, Torque, TwoMass};
 use driveline::observer::BacklashObserver;
 use driveline::settings::{Bases, Screening};
 
@@ -38,14 +38,15 @@ impl Machine for Converter {
         .backlash(Gap(0.3 / RATIO))
         .rotor(Inertia(1.2e7));
     /// All four motors; 600 r/min.
-    const RATING: Rating = Rating { torque: 4.0 * 1_750.0, speed: 62.8, torque_limit: 2.0 * 4.0 * 1_750.0 };
+    const RATING: Rating =
+        Rating { torque: Torque(4.0 * 1_750.0), speed: Speed(62.8), torque_limit: Torque(2.0 * 4.0 * 1_750.0) };
     const ENCODER: Encoder = Encoder::lines(2048);
     const RATE_HZ: u32 = 10_000;
     /// Cut at the trunnion: what is before the gap, and what is behind it.
     const TWO_MASS: TwoMass = Self::CHAIN.reduce(Match::TextbookCut(1));
     /// The mass between motors and bull gear is not in the model: its share of the torque counts as an error of it.
     const DISTURBANCE: Disturbance =
-        Disturbance { torque_accuracy: 0.02 * Self::RATING.torque, ..Self::RATING.disturbance() };
+        Disturbance { torque_accuracy: 0.02 * Self::RATING.torque.0, ..Self::RATING.disturbance() };
     /// The gap differs between the four trains and wears: an observer that trusts it less is better over tolerances,
     /// and as good on the machine as described.
     const BACKLASH_TUNING: BacklashTuning = BacklashTuning { wander: 0.8, hold: 0.3, ..BacklashTuning::USUAL };
@@ -55,11 +56,11 @@ impl Machine for Converter {
         SpeedLoopDesign { damping: 0.0, ..Self::TWO_MASS.speed_loop(Self::RATE, Self::TUNING) };
     /// The setpoint follows the operator's lever: rated speed in a fifth of a second, which is more than the motors
     /// can.
-    const RAMP: f64 = 5.0 * Self::RATING.speed;
-    const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit, 2.0 * Self::RATING.speed);
+    const RAMP: f64 = 5.0 * Self::RATING.speed.0;
+    const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit.0, 2.0 * Self::RATING.speed.0);
     /// In 30 ms the motor turns by less than half a turn.
     const SCREENING: Screening = Screening {
-        setpoint: 1.5 * Self::RATING.speed,
+        setpoint: 1.5 * Self::RATING.speed.0,
         max_coast: Self::RATE_HZ / 34,
         ..Self::RATING.screening(Self::ENCODER, Self::RATE)
     };
@@ -69,11 +70,11 @@ impl Machine for Converter {
 /// observer's lag allows with 6 dB.
 impl HasBacklash for Converter {
     const TAKING_UP: BacklashTakeUpTuning = BacklashTakeUpTuning {
-        impact: 0.2 * Self::RATING.torque,
-        torque: 0.1 * Self::RATING.torque,
-        rise: 0.25 * Self::RATING.torque,
+        impact: 0.2 * Self::RATING.torque.0,
+        torque: 0.1 * Self::RATING.torque.0,
+        rise: 0.25 * Self::RATING.torque.0,
         fall: f64::INFINITY,
-        max_torque: Self::RATING.torque_limit,
+        max_torque: Self::RATING.torque_limit.0,
         damping: 0.03,
     };
 }
@@ -81,11 +82,8 @@ impl HasBacklash for Converter {
 /// A plain speed loop.
 pub type Plain<N> = GovernedBy<N, BacklashObserver, SpeedGovernor>;
 /// With backlash take-up.
-pub type Slack<N> = GovernedBy<
-    N,
-    BacklashObserver,
-    SpeedGovernor<(), (), driveline::governor::BacklashTakeUp<SymmetricLimit>>,
->;
+pub type Slack<N> =
+    GovernedBy<N, BacklashObserver, SpeedGovernor<(), (), driveline::governor::BacklashTakeUp<SymmetricLimit>>>;
 
 variants! {
     "plain": Plain for Converter;

@@ -24,7 +24,7 @@ use driveline::design::{Disturbance, Encoder, SpeedLoopTuning};
 use driveline::drive::{ConfigOf, Drive};
 use driveline::fault::Faults;
 use driveline::governor::{LoadSharing, LoadSharingConfig, SpeedLoop};
-use driveline::machine::{Chain, Damping, Efficiency, Inertia, Ratio, Stiffness};
+use driveline::machine::{Chain, Damping, Efficiency, Inertia, Ratio, Speed, Stiffness, Torque};
 use driveline::number::Number;
 use driveline::observer::TwoMassObserver;
 use driveline::settings::{Bases, LoadSharingSettings, Screening};
@@ -58,20 +58,23 @@ impl Machine for ConverterRing {
         .shaft(Stiffness(3.6e9), Damping(1.0e7))
         .rotor(Inertia(1.2e7));
     /// All four motors; 600 r/min.
-    const RATING: Rating =
-        Rating { torque: MOTORS as f64 * RATED, speed: 62.8, torque_limit: 2.0 * MOTORS as f64 * RATED };
+    const RATING: Rating = Rating {
+        torque: Torque(MOTORS as f64 * RATED),
+        speed: Speed(62.8),
+        torque_limit: Torque(2.0 * MOTORS as f64 * RATED),
+    };
     const ENCODER: Encoder = Encoder::lines(2048);
     const RATE_HZ: u32 = 10_000;
     /// The load may wander by a third of rated in ten seconds.
     const DISTURBANCE: Disturbance =
-        Disturbance { load_torque_step: 0.35 * Self::RATING.torque, ..Self::RATING.disturbance() };
+        Disturbance { load_torque_step: 0.35 * Self::RATING.torque.0, ..Self::RATING.disturbance() };
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.3, damping: 1.0, shaft_damping: 0.1 };
     /// Rated speed in 1.6 s: two motors carry the load and the acceleration.
     const RAMP: f64 = 40.0;
-    const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit, 2.0 * Self::RATING.speed);
+    const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit.0, 2.0 * Self::RATING.speed.0);
     /// In 30 ms the motor turns by less than half a turn.
     const SCREENING: Screening = Screening {
-        setpoint: 1.5 * Self::RATING.speed,
+        setpoint: 1.5 * Self::RATING.speed.0,
         max_coast: Self::RATE_HZ / 34,
         ..Self::RATING.screening(Self::ENCODER, Self::RATE)
     };
@@ -113,12 +116,7 @@ where
     }
 
     #[inline(always)]
-    fn tick(
-        &mut self,
-        drive: &mut D,
-        config: &ConfigOf<D>,
-        input: &Input,
-    ) -> Output {
+    fn tick(&mut self, drive: &mut D, config: &ConfigOf<D>, input: &Input) -> Output {
         if input.flags & Input::MOTORS != 0 {
             let [torque, motor_speed, shaft_torque, load_speed] = self.torques.map(Number::to_word);
             return Output { torque, motor_speed, shaft_torque, load_speed, ..Output::default() };

@@ -13,7 +13,7 @@ use driveline::configure::{HasInputShaper, Machine, Rating};
 use driveline::design::{Disturbance, Encoder, LoadCycle, ObserverSelection, Requirement, SpeedLoopTuning};
 use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::{InputShaper, SetpointLag, SpeedLoop};
-use driveline::machine::{Chain, Diameter, Efficiency, Inertia, Length, Mass, Ratio};
+use driveline::machine::{Chain, Diameter, Efficiency, Inertia, Length, Mass, Ratio, Speed, Torque};
 use driveline::number::Number;
 use driveline::observer;
 use driveline::scheduling::ShaperSlots;
@@ -37,22 +37,22 @@ impl Machine for CraneTravel {
         .driven(Mass(25_000.0))
         .swinging(Mass(15_000.0), ROPE);
     /// Both motors.
-    const RATING: Rating = Rating { torque: 147.0, speed: 150.0, torque_limit: 290.0 };
+    const RATING: Rating = Rating { torque: Torque(147.0), speed: Speed(150.0), torque_limit: Torque(290.0) };
     const ENCODER: Encoder = Encoder::lines(COUNTS / 4);
     const RATE_HZ: u32 = 1_000;
     /// The torque is known to 3 %, half for the uncertain travelling resistance and half for noise. The wind varies by
     /// a twentieth of rated torque in 100 s: this minimises noise plus lag.
     const DISTURBANCE: Disturbance = Disturbance {
-        torque_accuracy: 0.03 * Self::RATING.torque,
-        load_torque_step: 0.05 * Self::RATING.torque,
+        torque_accuracy: 0.03 * Self::RATING.torque.0,
+        load_torque_step: 0.05 * Self::RATING.torque.0,
         within: 100.0,
     };
     /// Half of the pendulum's frequency, with as much active damping as 6 dB and 30 degrees leave: the observer
     /// estimates the swing with a lag. At seven tenths and a damping ratio of 0.2 the swing decayed hardly faster than
     /// in a loop without active damping.
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.5, damping: 1.0, shaft_damping: 0.25 };
-    const RAMP: f64 = Self::RATING.speed / 6.0;
-    const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit, 1.34 * Self::RATING.speed);
+    const RAMP: f64 = Self::RATING.speed.0 / 6.0;
+    const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit.0, 1.34 * Self::RATING.speed.0);
     /// In 15 ms the motor turns by less than half a turn.
     const SCREENING: Screening =
         Screening { max_coast: Self::RATE_HZ / 67, ..Self::RATING.screening(Self::ENCODER, Self::RATE) };
@@ -79,7 +79,7 @@ impl Machine for StiffTravel {
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 4.0, damping: 1.0, shaft_damping: 0.03 };
     const RAMP: f64 = CraneTravel::RAMP;
     /// Twice that of the other governor: its damping, of the whole swing, is within the base.
-    const BASES: Bases = Bases::new(&Self::TWO_MASS, 4.0 * Self::RATING.torque_limit, 1.34 * Self::RATING.speed);
+    const BASES: Bases = Bases::new(&Self::TWO_MASS, 4.0 * Self::RATING.torque_limit.0, 1.34 * Self::RATING.speed.0);
     const SCREENING: Screening = CraneTravel::SCREENING;
 }
 
@@ -110,9 +110,9 @@ pub const COUNTS: u32 = 4096;
 pub const fn selection() -> ObserverSelection {
     CraneTravel::TWO_MASS.select_observer(
         &LoadCycle {
-            speed: CraneTravel::RATING.speed,
-            torque: 0.4 * CraneTravel::RATING.torque,
-            change: 0.4 * CraneTravel::RATING.torque,
+            speed: CraneTravel::RATING.speed.0,
+            torque: 0.4 * CraneTravel::RATING.torque.0,
+            change: 0.4 * CraneTravel::RATING.torque.0,
             rise: 1.0,
             every: 12.0,
             reverses: true,

@@ -6,7 +6,7 @@
 
 use driveline::configure::{Machine, Rating};
 use driveline::design::{Disturbance, Encoder, LoadCycle, ObserverSelection, Requirement, SpeedLoopTuning};
-use driveline::machine::{Chain, Damping, Inertia, Stiffness};
+use driveline::machine::{Chain, Damping, Inertia, Speed, Stiffness, Torque};
 use driveline::observer;
 use driveline::settings::{Bases, Screening};
 
@@ -18,7 +18,7 @@ pub struct Fan;
 
 impl Machine for Fan {
     const CHAIN: Chain = Chain::motor(Inertia(0.35)).shaft(Stiffness(1.2e5), Damping(8.0)).rotor(Inertia(4.5));
-    const RATING: Rating = Rating { torque: 290.0, speed: 155.0, torque_limit: 435.0 };
+    const RATING: Rating = Rating { torque: Torque(290.0), speed: Speed(155.0), torque_limit: Torque(435.0) };
     const ENCODER: Encoder = Encoder::lines(COUNTS / 4);
     /// A fan needs no more.
     const RATE_HZ: u32 = 1_000;
@@ -26,11 +26,11 @@ impl Machine for Fan {
     const LOAD_SHARE: f64 = 4.5 / Self::CHAIN.rigid().inertia;
     /// The load follows the speed, which takes seconds.
     const DISTURBANCE: Disturbance =
-        Disturbance { load_torque_step: 0.2 * Self::RATING.torque, ..Self::RATING.disturbance() };
+        Disturbance { load_torque_step: 0.2 * Self::RATING.torque.0, ..Self::RATING.disturbance() };
     /// A slow speed loop, a hundredth of the antiresonance.
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.01, damping: 1.0, shaft_damping: 0.02 };
-    const RAMP: f64 = Self::RATING.speed / 10.0;
-    const BASES: Bases = Bases::rigid(2.0 * Self::RATING.torque_limit, 1.34 * Self::RATING.speed);
+    const RAMP: f64 = Self::RATING.speed.0 / 10.0;
+    const BASES: Bases = Bases::rigid(2.0 * Self::RATING.torque_limit.0, 1.34 * Self::RATING.speed.0);
     /// In 15 ms the motor turns by less than half a turn.
     const SCREENING: Screening =
         Screening { max_coast: Self::RATE_HZ / 67, ..Self::RATING.screening(Self::ENCODER, Self::RATE) };
@@ -43,9 +43,9 @@ pub const COUNTS: u32 = 4096;
 pub const fn selection() -> ObserverSelection {
     Fan::TWO_MASS.select_observer(
         &LoadCycle {
-            speed: Fan::RATING.speed,
-            torque: Fan::RATING.torque,
-            change: 0.5 * Fan::RATING.torque,
+            speed: Fan::RATING.speed.0,
+            torque: Fan::RATING.torque.0,
+            change: 0.5 * Fan::RATING.torque.0,
             rise: 0.1,
             every: 5.0,
             reverses: false,

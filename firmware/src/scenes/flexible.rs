@@ -8,7 +8,7 @@
 use driveline::balancing::Steadiness;
 use driveline::configure::{HasVibration, Machine, Rating};
 use driveline::design::{Disturbance, Encoder, SpeedLoopTuning};
-use driveline::machine::{Chain, Damping, Inertia, Stiffness};
+use driveline::machine::{Chain, Damping, Inertia, Speed, Stiffness, Torque};
 use driveline::observer;
 use driveline::settings::{Bases, PhasorSettings, Screening};
 
@@ -21,16 +21,16 @@ pub struct Flexible;
 
 impl Machine for Flexible {
     const CHAIN: Chain = Chain::motor(Inertia(0.4)).shaft(Stiffness(9.0e3), Damping(3.0)).rotor(Inertia(1.05));
-    const RATING: Rating = Rating { torque: 60.0, speed: 180.0, torque_limit: 150.0 };
+    const RATING: Rating = Rating { torque: Torque(60.0), speed: Speed(180.0), torque_limit: Torque(150.0) };
     const ENCODER: Encoder = Encoder::lines(2048);
     /// 149 on a turn of the higher speed.
     const RATE_HZ: u32 = 4_000;
     const DISTURBANCE: Disturbance =
-        Disturbance { load_torque_step: 0.3 * Self::RATING.torque, within: 2.0, ..Self::RATING.disturbance() };
+        Disturbance { load_torque_step: 0.3 * Self::RATING.torque.0, within: 2.0, ..Self::RATING.disturbance() };
     /// Soft: a steady speed is what counts, and a stiff one would stir it with the encoder's counts.
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.05, damping: 1.0, shaft_damping: 0.05 };
-    const RAMP: f64 = Self::RATING.speed / 3.0;
-    const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit, 1.34 * Self::RATING.speed);
+    const RAMP: f64 = Self::RATING.speed.0 / 3.0;
+    const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit.0, 1.34 * Self::RATING.speed.0);
     const SCREENING: Screening =
         Screening { max_coast: Self::RATE_HZ / 67, ..Self::RATING.screening(Self::ENCODER, Self::RATE) };
 }

@@ -14,7 +14,7 @@
 use driveline::configure::{Machine, Rating};
 use driveline::design::{Disturbance, Encoder, LoadCycle, ObserverSelection, Requirement, SpeedLoopTuning};
 use driveline::machine::{
-    Chain, Damping, Diameter, Efficiency, Inertia, Length, Ratio, Section, ShearModulus, Stiffness,
+    Chain, Damping, Diameter, Efficiency, Inertia, Length, Ratio, Section, ShearModulus, Speed, Stiffness, Torque,
 };
 use driveline::observer::TwoMassObserver;
 use driveline::settings::{Bases, Screening};
@@ -47,15 +47,15 @@ impl Machine for GearDrive {
         .rotor(Inertia(0.065))
         .shaft(Section::solid(Length(0.8), Diameter(0.065)).stiffness(ShearModulus::STEEL), Damping(25.0))
         .rotor(Inertia(12.0));
-    const RATING: Rating = Rating { torque: 240.0, speed: 154.5, torque_limit: 430.0 };
+    const RATING: Rating = Rating { torque: Torque(240.0), speed: Speed(154.5), torque_limit: Torque(430.0) };
     const ENCODER: Encoder = Encoder::lines(COUNTS / 4);
     const RATE_HZ: u32 = 4_000;
     /// The load may wander by half of rated torque in 1 s.
     const DISTURBANCE: Disturbance = Disturbance { within: 1.0, ..Self::RATING.disturbance() };
     /// A tenth of the antiresonance.
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.1, damping: 1.0, shaft_damping: 0.1 };
-    const RAMP: f64 = Self::RATING.speed / 1.5;
-    const BASES: Bases = Bases::new(&Self::TWO_MASS, 16.0 * Self::RATING.torque_limit, 1.34 * Self::RATING.speed);
+    const RAMP: f64 = Self::RATING.speed.0 / 1.5;
+    const BASES: Bases = Bases::new(&Self::TWO_MASS, 16.0 * Self::RATING.torque_limit.0, 1.34 * Self::RATING.speed.0);
     /// In 15 ms the motor turns by less than half a turn.
     const SCREENING: Screening =
         Screening { max_coast: Self::RATE_HZ / 67, ..Self::RATING.screening(Self::ENCODER, Self::RATE) };
@@ -68,9 +68,9 @@ pub const COUNTS: u32 = 8_192;
 pub const fn selection() -> ObserverSelection {
     GearDrive::TWO_MASS.select_observer(
         &LoadCycle {
-            speed: GearDrive::RATING.speed,
-            torque: 1.5 * GearDrive::RATING.torque,
-            change: 0.5 * GearDrive::RATING.torque,
+            speed: GearDrive::RATING.speed.0,
+            torque: 1.5 * GearDrive::RATING.torque.0,
+            change: 0.5 * GearDrive::RATING.torque.0,
             rise: 0.02,
             every: 0.5,
             reverses: false,

@@ -303,8 +303,7 @@ pub const RING: usize = 32;
 pub const FIRING: usize = 32;
 
 /// The governor of a genset, with feed-forward or another compensation.
-pub type Governor<F = FeedForward> =
-    SpeedGovernor<(Droop, Barred<1>), F, Curve<4>, Sequencer, MovingAverage<FIRING>>;
+pub type Governor<F = FeedForward> = SpeedGovernor<(Droop, Barred<1>), F, Curve<4>, Sequencer, MovingAverage<FIRING>>;
 /// The drive of a set.
 pub type DriveOf<N, F = FeedForward> = Drive<N, TwoMassObserver, Governor<F>>;
 
@@ -357,8 +356,11 @@ pub struct With<S, const CONSTANTS: usize>(PhantomData<S>);
 
 impl<S: HasSet, const CONSTANTS: usize> Machine for With<S, CONSTANTS> {
     const CHAIN: Chain = S::CHAIN;
-    const RATING: Rating =
-        Rating { torque: S::SET.rated_torque, speed: RATED_SPEED, torque_limit: 1.2 * S::SET.rated_torque };
+    const RATING: Rating = Rating {
+        torque: Torque(S::SET.rated_torque),
+        speed: Speed(RATED_SPEED),
+        torque_limit: Torque(1.2 * S::SET.rated_torque),
+    };
     const ENCODER: Encoder = ENCODER;
     const RATE_HZ: u32 = RATE_HZ;
     const TWO_MASS: TwoMassMachine = S::SET.machine;

@@ -7,7 +7,7 @@
 use driveline::balancing::{InRunConfig, Steadiness};
 use driveline::configure::{HasVibration, Machine, Rating};
 use driveline::design::{Disturbance, Encoder, SpeedLoopTuning};
-use driveline::machine::{Chain, Damping, Inertia, Stiffness};
+use driveline::machine::{Chain, Damping, Inertia, Speed, Stiffness, Torque};
 use driveline::observer;
 use driveline::settings::{Bases, PhasorSettings, Screening};
 
@@ -21,16 +21,17 @@ pub struct GrindingSpindle;
 impl Machine for GrindingSpindle {
     const CHAIN: Chain = Chain::motor(Inertia(0.02)).shaft(Stiffness(1.5e3), Damping(0.2)).rotor(Inertia(0.18));
     /// 3000 r/min.
-    const RATING: Rating = Rating { torque: 20.0, speed: 100.0 * core::f64::consts::PI, torque_limit: 80.0 };
+    const RATING: Rating =
+        Rating { torque: Torque(20.0), speed: Speed(100.0 * core::f64::consts::PI), torque_limit: Torque(80.0) };
     const ENCODER: Encoder = Encoder::lines(2048);
     /// 80 on a turn.
     const RATE_HZ: u32 = 4_000;
     const DISTURBANCE: Disturbance =
-        Disturbance { load_torque_step: 0.3 * Self::RATING.torque, within: 2.0, ..Self::RATING.disturbance() };
+        Disturbance { load_torque_step: 0.3 * Self::RATING.torque.0, within: 2.0, ..Self::RATING.disturbance() };
     /// Soft: a steady speed is what counts, and a stiff one would stir it with the encoder's counts.
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.05, damping: 1.0, shaft_damping: 0.15 };
-    const RAMP: f64 = Self::RATING.speed;
-    const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit, 1.34 * Self::RATING.speed);
+    const RAMP: f64 = Self::RATING.speed.0;
+    const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit.0, 1.34 * Self::RATING.speed.0);
     const SCREENING: Screening =
         Screening { max_coast: Self::RATE_HZ / 67, ..Self::RATING.screening(Self::ENCODER, Self::RATE) };
 }

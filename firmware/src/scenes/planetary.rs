@@ -9,7 +9,7 @@ use driveline::design::{
     Disturbance, Encoder, LoadCycle, ObserverSelection, Requirement, RigidDesign, SpeedLoopTuning,
 };
 use driveline::machine::{
-    Chain, Damping, Diameter, Efficiency, Inertia, Length, Mass, Planetary, Section, ShearModulus,
+    Chain, Damping, Diameter, Efficiency, Inertia, Length, Mass, Planetary, Section, ShearModulus, Speed, Torque,
 };
 use driveline::observer::{self, GearedObserver, TwoMassObserver};
 use driveline::settings::{Bases, Screening};
@@ -38,7 +38,7 @@ impl Machine for PlanetaryDrive {
         .planetary(SET)
         .shaft(Section::solid(Length(1.2), Diameter(0.090)).stiffness(ShearModulus::STEEL), Damping(120.0))
         .rotor(Inertia(55.0));
-    const RATING: Rating = Rating { torque: 355.0, speed: 155.0, torque_limit: 600.0 };
+    const RATING: Rating = Rating { torque: Torque(355.0), speed: Speed(155.0), torque_limit: Torque(600.0) };
     const ENCODER: Encoder = Encoder::lines(COUNTS / 4);
     const RATE_HZ: u32 = 4_000;
     /// The load may wander by half of rated torque in 100 s: noise and lag are least together so.
@@ -49,8 +49,8 @@ impl Machine for PlanetaryDrive {
         Self::CHAIN.rigid().observer(Self::RATE, Self::ENCODER, Disturbance { within: 1.0, ..Self::DISTURBANCE });
     /// A tenth of the antiresonance.
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.1, damping: 1.0, shaft_damping: 0.2 };
-    const RAMP: f64 = Self::RATING.speed / 4.0;
-    const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit, 1.34 * Self::RATING.speed);
+    const RAMP: f64 = Self::RATING.speed.0 / 4.0;
+    const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit.0, 1.34 * Self::RATING.speed.0);
     /// In 15 ms the motor turns by less than half a turn.
     const SCREENING: Screening =
         Screening { max_coast: Self::RATE_HZ / 67, ..Self::RATING.screening(Self::ENCODER, Self::RATE) };
@@ -65,9 +65,9 @@ pub const COUNTS: u32 = 8_192;
 pub const fn selection() -> ObserverSelection {
     PlanetaryDrive::TWO_MASS.select_observer(
         &LoadCycle {
-            speed: PlanetaryDrive::RATING.speed,
-            torque: 0.78 * PlanetaryDrive::RATING.torque,
-            change: 0.5 * PlanetaryDrive::RATING.torque,
+            speed: PlanetaryDrive::RATING.speed.0,
+            torque: 0.78 * PlanetaryDrive::RATING.torque.0,
+            change: 0.5 * PlanetaryDrive::RATING.torque.0,
             rise: 0.2,
             every: 4.0,
             reverses: false,

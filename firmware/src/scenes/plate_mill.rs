@@ -11,7 +11,7 @@
 
 use driveline::configure::{Machine, Rating};
 use driveline::design::{Disturbance, Encoder, RigidDesign, SpeedLoopTuning};
-use driveline::machine::{Chain, Damping, Inertia, Match, Ratio, Stiffness, Train, TwoMass};
+use driveline::machine::{Chain, Damping, Inertia, Match, Ratio, Speed, Stiffness, Torque, Train, TwoMass};
 use driveline::observer::TwoMassObserver;
 use driveline::settings::{Bases, Screening};
 
@@ -36,7 +36,7 @@ pub struct PlateMill;
 impl Machine for PlateMill {
     /// Motor and pinion stand; the spindles are branches on it.
     const CHAIN: Chain = Chain::motor(Inertia(3.0e4)).shaft(Stiffness(4.0e9), Damping(4.0e5)).rotor(Inertia(2.0e3));
-    const RATING: Rating = Rating { torque: 3.82e5, speed: 15.7, torque_limit: 1.75 * 3.82e5 };
+    const RATING: Rating = Rating { torque: Torque(3.82e5), speed: Speed(15.7), torque_limit: Torque(1.75 * 3.82e5) };
     const ENCODER: Encoder = Encoder::lines(8192);
     const RATE_HZ: u32 = 5_000;
     const TWO_MASS: TwoMass = TRAIN.reduce(Match::ResonanceAntiresonance);
@@ -46,7 +46,7 @@ impl Machine for PlateMill {
     /// A tenth of the antiresonance.
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.1, damping: 1.0, shaft_damping: 0.1 };
     const RAMP: f64 = Self::RATING.ramp(TRAIN.total_inertia());
-    const BASES: Bases = Bases::new(&Self::TWO_MASS, 4.0 * Self::RATING.torque_limit, 2.0 * Self::RATING.speed);
+    const BASES: Bases = Bases::new(&Self::TWO_MASS, 4.0 * Self::RATING.torque_limit.0, 2.0 * Self::RATING.speed.0);
     const SCREENING: Screening = Self::RATING.screening(Self::ENCODER, Self::RATE);
 }
 

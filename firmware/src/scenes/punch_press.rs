@@ -25,7 +25,8 @@ use driveline::drive::{ConfigOf, Drive};
 use driveline::fluctuation::{Balance, CycleMean, Flywheel, Ripple, Series, Summed, Waveform, WaveformConfig, Window};
 use driveline::governor::{CycleAverage, SpeedGovernor, SpeedLoop, SymmetricLimit};
 use driveline::machine::{
-    Chain, CrankSlider, Cranked, Damping, Efficiency, Inertia, Length, Mass, Match, Ratio, Stiffness, TwoMass,
+    Chain, CrankSlider, Cranked, Damping, Efficiency, Inertia, Length, Mass, Match, Ratio, Speed, Stiffness, Torque,
+    TwoMass,
 };
 use driveline::number::Number;
 use driveline::observer;
@@ -51,7 +52,7 @@ impl Machine for PunchPress {
         .gear(Ratio(RATIO as f64), Efficiency(1.0))
         .shaft(Stiffness(1.6e7), Damping(2_100.0))
         .rotor(RAM.mean_inertia());
-    const RATING: Rating = Rating { torque: 182.0, speed: 101.6, torque_limit: 364.0 };
+    const RATING: Rating = Rating { torque: Torque(182.0), speed: Speed(101.6), torque_limit: Torque(364.0) };
     const ENCODER: Encoder = Encoder::counts(COUNTS);
     const RATE_HZ: u32 = 10_000;
     /// Referred to the motor.
@@ -66,9 +67,9 @@ impl Machine for PunchPress {
         SpeedLoopDesign { damping: 0.0, ..Self::TWO_MASS.speed_loop(Self::RATE, Self::TUNING) };
     /// On the speed without its ripple.
     const GAINS: GainSource = GainSource::Governor(over_stroke());
-    const RAMP: f64 = Self::RATING.speed / 2.0;
+    const RAMP: f64 = Self::RATING.speed.0 / 2.0;
     /// The shaft carries five times the motor's largest torque, and the observer's gains want a base of this size.
-    const BASES: Bases = Bases::rigid(10_000.0, 1.34 * Self::RATING.speed);
+    const BASES: Bases = Bases::rigid(10_000.0, 1.34 * Self::RATING.speed.0);
     /// In 25 ms the motor turns by less than half a turn.
     const SCREENING: Screening =
         Screening { max_coast: Self::RATE_HZ / 40, ..Self::RATING.screening(Self::ENCODER, Self::RATE) };
@@ -91,7 +92,7 @@ pub const TOP: u32 = 1 << 31;
 pub const STROKE: Cycle = Cycle { turns: RATIO, cycles: 1 };
 
 /// The longest stroke that the press is governed in by its mean (s): at four fifths of rated speed.
-pub const LONGEST_STROKE: f64 = core::f64::consts::TAU * RATIO as f64 / (0.8 * PunchPress::RATING.speed);
+pub const LONGEST_STROKE: f64 = core::f64::consts::TAU * RATIO as f64 / (0.8 * PunchPress::RATING.speed.0);
 
 /// The governor on the speed without its ripple. That is renewed from a whole stroke: a gain of 1.5 J over the stroke's
 /// time crosses over at 1.5/T, where `(1 - e^-sT)(1/sT + 1/2)` has lost little, and the integral takes three strokes.
@@ -151,7 +152,12 @@ pub mod panel {
 /// The drive of a press that is governed by a plain speed loop.
 pub type PlainDrive<N> = Drive<N, observer::CrankObserver, SpeedLoop>;
 /// The drive of a press that is governed on the mean over a stroke, with the measurement of the fluctuation.
-pub type MeanDrive<N> = Drive<N, observer::CrankObserver, SpeedGovernor<(), (), SymmetricLimit, (), CycleAverage>, (CycleMean<SEGMENTS>, Waveform<BINS>)>;
+pub type MeanDrive<N> = Drive<
+    N,
+    observer::CrankObserver,
+    SpeedGovernor<(), (), SymmetricLimit, (), CycleAverage>,
+    (CycleMean<SEGMENTS>, Waveform<BINS>),
+>;
 
 /// A plain speed loop.
 pub type Plain<N> = Composed<PlainDrive<N>, FromTop>;

@@ -25,7 +25,8 @@ use driveline::design::{
 };
 use driveline::governor::{SpeedGovernor, SymmetricLimit};
 use driveline::machine::{
-    Chain, Damping, Diameter, Efficiency, Falls, Gap, Inertia, LinearDamping, Mass, Ratio, Stiffness, TwoMass,
+    Chain, Damping, Diameter, Efficiency, Falls, Gap, Inertia, LinearDamping, Mass, Ratio, Speed, Stiffness, Torque,
+    TwoMass,
 };
 use driveline::observer::{self, BacklashObserver, GearedObserver};
 use driveline::settings::{Bases, Gear, Screening};
@@ -44,14 +45,14 @@ impl Machine for SkipWinch {
         .drum(Diameter(2.0))
         .damped_rope(Falls(1), Stiffness(3.9e5), LinearDamping(1.3e3))
         .lifted(Mass(5_000.0));
-    const RATING: Rating = Rating { torque: 4_000.0, speed: 62.8, torque_limit: 7_000.0 };
+    const RATING: Rating = Rating { torque: Torque(4_000.0), speed: Speed(62.8), torque_limit: Torque(7_000.0) };
     const ENCODER: Encoder = Encoder::lines(COUNTS / 4);
     const RATE_HZ: u32 = 2_000;
     /// The skip's weight stays what it is on its way. The gear's loss is known to a few per cent alone, for seconds on
     /// end: the motor's motion says more of the rope than the torque does.
     const DISTURBANCE: Disturbance = Disturbance {
-        torque_accuracy: 0.2 * Self::RATING.torque,
-        load_torque_step: 0.005 * Self::RATING.torque,
+        torque_accuracy: 0.2 * Self::RATING.torque.0,
+        load_torque_step: 0.005 * Self::RATING.torque.0,
         within: 100.0,
     };
     /// The observer that takes the rope for rigid has to follow the rope's vibration as if it were the load's doing.
@@ -61,8 +62,8 @@ impl Machine for SkipWinch {
         Disturbance { within: 1.0, ..Self::RATING.disturbance() },
     );
     const TUNING: SpeedLoopTuning = SpeedLoopTuning::USUAL;
-    const RAMP: f64 = Self::RATING.speed / 4.0;
-    const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit, 1.34 * Self::RATING.speed);
+    const RAMP: f64 = Self::RATING.speed.0 / 4.0;
+    const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit.0, 1.34 * Self::RATING.speed.0);
     /// In 40 ms the motor turns by less than half a turn.
     const SCREENING: Screening =
         Screening { max_coast: Self::RATE_HZ / 25, ..Self::RATING.screening(Self::ENCODER, Self::RATE) };
@@ -78,8 +79,8 @@ pub const COUNTS: u32 = 8192;
 pub const fn selection() -> ObserverSelection {
     SkipWinch::TWO_MASS.select_observer(
         &LoadCycle {
-            speed: SkipWinch::RATING.speed,
-            torque: 1.8 * SkipWinch::RATING.torque,
+            speed: SkipWinch::RATING.speed.0,
+            torque: 1.8 * SkipWinch::RATING.torque.0,
             change: BRAKE_TORQUE,
             rise: 0.3,
             every: 5.0,
@@ -104,7 +105,7 @@ impl Machine for SkipOnRope {
     /// A brake's torque is known to 5 %. An observer that trusts it more lags behind the rope's swing, and the damping
     /// by its twist rate has less than 6 dB.
     const DISTURBANCE: Disturbance =
-        Disturbance { torque_accuracy: 0.05 * Self::RATING.torque, within: 100.0, ..Self::RATING.disturbance() };
+        Disturbance { torque_accuracy: 0.05 * Self::RATING.torque.0, within: 100.0, ..Self::RATING.disturbance() };
     /// Searching gains for the instant at which the rope tightens: the slack follows from the skip's flight, to 0.15
     /// rad within a period of the oscillation.
     const BACKLASH_TUNING: BacklashTuning = BacklashTuning { wander: 0.01, ..BacklashTuning::USUAL };
@@ -112,22 +113,22 @@ impl Machine for SkipOnRope {
     const SPEED_LOOP: SpeedLoopDesign = SpeedLoopDesign { damping: 0.0, ..SkipWinch::SPEED_LOOP };
     /// The setpoint of the emergency stop: from rated speed in an eighth of a second, which is more than motor and
     /// brake can.
-    const RAMP: f64 = 8.0 * Self::RATING.speed;
+    const RAMP: f64 = 8.0 * Self::RATING.speed.0;
     const BASES: Bases = SkipWinch::BASES;
     /// Motor and brake pull together.
     const SCREENING: Screening =
-        Screening { torque: Self::RATING.torque_limit + 1.05 * BRAKE_TORQUE, ..SkipWinch::SCREENING };
+        Screening { torque: Self::RATING.torque_limit.0 + 1.05 * BRAKE_TORQUE, ..SkipWinch::SCREENING };
 }
 
 /// While the rope is slack, rated torque holds the drum to the skip's speed, also against the brake. A tight rope's
 /// torque rises by as much within a period of the swing, which is damped as far as the observer's lag allows with 6 dB.
 impl HasBacklash for SkipOnRope {
     const TAKING_UP: BacklashTakeUpTuning = BacklashTakeUpTuning {
-        impact: 0.2 * Self::RATING.torque,
-        torque: Self::RATING.torque,
-        rise: Self::RATING.torque,
+        impact: 0.2 * Self::RATING.torque.0,
+        torque: Self::RATING.torque.0,
+        rise: Self::RATING.torque.0,
         fall: f64::INFINITY,
-        max_torque: Self::RATING.torque_limit,
+        max_torque: Self::RATING.torque_limit.0,
         damping: 0.25,
     };
     const TAKE_UP: BacklashTakeUpDesign = SkipWinch::TWO_MASS.take_up(Self::RATE, Self::TAKING_UP);

@@ -8,7 +8,7 @@
 
 use driveline::configure::{Machine, Rating};
 use driveline::design::{Disturbance, Encoder, LoadCycle, ObserverSelection, Requirement, SpeedLoopTuning};
-use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Section, ShearModulus, stepped};
+use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Section, ShearModulus, Speed, Torque, stepped};
 use driveline::observer::{self, TwoMassObserver};
 use driveline::settings::{Bases, Screening};
 
@@ -28,23 +28,24 @@ impl Machine for Spindle {
     const CHAIN: Chain =
         Chain::motor(Inertia(0.012)).shaft(stepped(&SHAFT, ShearModulus::STEEL), Damping(0.3)).rotor(Inertia(0.004));
     /// 3000 r/min.
-    const RATING: Rating = Rating { torque: 70.0, speed: 314.0, torque_limit: 110.0 };
+    const RATING: Rating = Rating { torque: Torque(70.0), speed: Speed(314.0), torque_limit: Torque(110.0) };
     /// With half of its tolerances: the interpolation is within 1 % of a line, the jitter within 0.2 µs. An observer of
     /// counts alone takes their errors for swings of the shaft.
-    const ENCODER: Encoder = Encoder::lines(COUNTS / 4).interpolation(LINES, 0.005).jitter(0.1e-6, Self::RATING.speed);
+    const ENCODER: Encoder =
+        Encoder::lines(COUNTS / 4).interpolation(LINES, 0.005).jitter(0.1e-6, Self::RATING.speed.0);
     const RATE_HZ: u32 = 10_000;
     /// The tool meets the work within milliseconds: the load torque wanders three times as far as usual. With an
     /// encoder of this accuracy the observer would lag behind it otherwise.
     const DISTURBANCE: Disturbance =
-        Disturbance { load_torque_step: 1.5 * Self::RATING.torque, ..Self::RATING.disturbance() };
+        Disturbance { load_torque_step: 1.5 * Self::RATING.torque.0, ..Self::RATING.disturbance() };
     /// A fiftieth of the antiresonance, 14 Hz, and next to nothing of the twist rate: a torque that is a tick late and
     /// through a current control of 500 Hz is 130 degrees late at 800 Hz.
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.02, damping: 1.0, shaft_damping: 0.006 };
     /// Rated speed in half a second.
-    const RAMP: f64 = 2.0 * Self::RATING.speed;
+    const RAMP: f64 = 2.0 * Self::RATING.speed.0;
     /// That of the torque is forty times the largest, for the gains: a radian of innovation is much with such an
     /// encoder.
-    const BASES: Bases = Bases::new(&Self::TWO_MASS, 40.0 * Self::RATING.torque_limit, 1.34 * Self::RATING.speed);
+    const BASES: Bases = Bases::new(&Self::TWO_MASS, 40.0 * Self::RATING.torque_limit.0, 1.34 * Self::RATING.speed.0);
     /// In 6 ms the motor turns by less than half a turn.
     const SCREENING: Screening = Screening {
         innovation: core::f64::consts::TAU / 256.0,
@@ -64,9 +65,9 @@ pub const COUNTS: u32 = 524_288;
 pub const fn selection() -> ObserverSelection {
     Spindle::TWO_MASS.select_observer(
         &LoadCycle {
-            speed: Spindle::RATING.speed,
-            torque: 0.66 * Spindle::RATING.torque,
-            change: 0.64 * Spindle::RATING.torque,
+            speed: Spindle::RATING.speed.0,
+            torque: 0.66 * Spindle::RATING.torque.0,
+            change: 0.64 * Spindle::RATING.torque.0,
             rise: 0.003,
             every: 0.3,
             reverses: false,

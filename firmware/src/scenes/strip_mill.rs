@@ -11,7 +11,7 @@ use driveline::design::{Encoder, LoadCycle, ObserverSelection, Requirement, Spee
 use driveline::drive::Drive;
 use driveline::fatigue::{Rainflow, WoehlerLine};
 use driveline::governor::{DampingLag, SetpointLag, SpeedLoop};
-use driveline::machine::{Chain, Damping, Inertia, Stiffness};
+use driveline::machine::{Chain, Damping, Inertia, Speed, Stiffness, Torque};
 use driveline::observer;
 use driveline::settings::{Bases, Screening};
 
@@ -30,7 +30,7 @@ impl Machine for StripMill {
         .rotor(Inertia(400.0))
         .shaft(Stiffness(6.0e6), Damping(4.0e3))
         .rotor(Inertia(2500.0));
-    const RATING: Rating = Rating { torque: 2.0e5, speed: 12.0, torque_limit: 4.0e5 };
+    const RATING: Rating = Rating { torque: Torque(2.0e5), speed: Speed(12.0), torque_limit: Torque(4.0e5) };
     const ENCODER: Encoder = Encoder::lines(COUNTS / 4);
     const RATE_HZ: u32 = 10_000;
     /// A tenth of the antiresonance, and a shaft that is damped after a strip's bite. Without the damping's lag a
@@ -38,9 +38,9 @@ impl Machine for StripMill {
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.1, damping: 1.0, shaft_damping: 0.15 };
     const SPEED_LOOP: SpeedLoopDesign =
         Self::TWO_MASS.speed_loop(Self::RATE, Self::TUNING).with_damping_lag(1.0 / Self::TWO_MASS.resonance());
-    const RAMP: f64 = Self::RATING.speed / 3.0;
+    const RAMP: f64 = Self::RATING.speed.0 / 3.0;
     /// They are far above the operating range, for the gains: a radian of innovation is much with such an encoder.
-    const BASES: Bases = Bases::new(&Self::TWO_MASS, 20.0 * Self::RATING.torque_limit, 4.0 * Self::RATING.speed);
+    const BASES: Bases = Bases::new(&Self::TWO_MASS, 20.0 * Self::RATING.torque_limit.0, 4.0 * Self::RATING.speed.0);
     /// In 0.2 s the motor turns by less than half a turn.
     const SCREENING: Screening = Screening {
         innovation: core::f64::consts::TAU / 512.0,
@@ -51,7 +51,7 @@ impl Machine for StripMill {
 
 impl HasLife for StripMill {
     /// Of a spindle's neck, assumed: rated torque, swelling, is what it endures; slopes as in Miner's elementary rule.
-    const SHAFT: WoehlerLine = WoehlerLine { knee: 0.5 * Self::RATING.torque, cycles: 2.0e6, slope: 5.0, below: 5.0 };
+    const SHAFT: WoehlerLine = WoehlerLine { knee: 0.5 * Self::RATING.torque.0, cycles: 2.0e6, slope: 5.0, below: 5.0 };
 }
 
 /// Counts of the encoder on a turn: a sine encoder of 4096 lines, interpolated 256 times.
@@ -61,9 +61,9 @@ pub const COUNTS: u32 = 1_048_576;
 pub const fn selection() -> ObserverSelection {
     StripMill::TWO_MASS.select_observer(
         &LoadCycle {
-            speed: StripMill::RATING.speed,
-            torque: 0.7 * StripMill::RATING.torque,
-            change: 0.6 * StripMill::RATING.torque,
+            speed: StripMill::RATING.speed.0,
+            torque: 0.7 * StripMill::RATING.torque.0,
+            change: 0.6 * StripMill::RATING.torque.0,
             rise: 0.05,
             every: 1.0,
             reverses: false,
@@ -81,8 +81,7 @@ pub type Rigid<N> = GovernedBy<N, observer::RigidObserver, Loop>;
 /// Two masses, semi-implicit step: the design's choice.
 pub type SemiImplicit<N> = GovernedBy<N, observer::SemiImplicitObserver, Loop>;
 /// The same with the life of the spindles counted, in 128 classes of 9.4 kN m.
-pub type Life<N> =
-    Composed<Drive<N, observer::SemiImplicitObserver, Loop, Rainflow<128>>, LifePanel<StripMill>>;
+pub type Life<N> = Composed<Drive<N, observer::SemiImplicitObserver, Loop, Rainflow<128>>, LifePanel<StripMill>>;
 
 variants! {
     "rigid": Rigid for StripMill;

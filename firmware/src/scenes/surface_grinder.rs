@@ -24,7 +24,7 @@ use driveline::design::{Disturbance, Encoder, SpeedLoopDesign, SpeedLoopTuning};
 use driveline::drive::ConfigOf;
 use driveline::fluctuation::{Interleaved, Ranked, Summed};
 use driveline::governor::SpeedGovernor;
-use driveline::machine::{Chain, Damping, Inertia, Stiffness};
+use driveline::machine::{Chain, Damping, Inertia, Speed, Stiffness, Torque};
 use driveline::observer::SemiImplicitObserver;
 use driveline::settings::{PhasorSettings, Screening};
 
@@ -42,14 +42,14 @@ pub struct SurfaceGrinder;
 impl Machine for SurfaceGrinder {
     const CHAIN: Chain = Chain::motor(Inertia(0.52)).shaft(Stiffness(4.9e3), Damping(3.6)).rotor(Inertia(1.9));
     /// 735 r/min.
-    const RATING: Rating = Rating { torque: 286.0, speed: 77.0, torque_limit: 572.0 };
+    const RATING: Rating = Rating { torque: Torque(286.0), speed: Speed(77.0), torque_limit: Torque(572.0) };
     const ENCODER: Encoder = Encoder::counts(COUNTS);
     /// 816 on a turn.
     const RATE_HZ: u32 = 10_000;
     /// The cut's torque swings by a third of rated once a turn, either way. Of the values tried, from 1 ms to 5 s, the
     /// smallest errors of shaft torque and load speed; 0.1 s to 0.3 s differ by a twentieth.
     const DISTURBANCE: Disturbance =
-        Disturbance { load_torque_step: Self::RATING.torque, within: 0.2, ..Self::RATING.disturbance() };
+        Disturbance { load_torque_step: Self::RATING.torque.0, within: 0.2, ..Self::RATING.disturbance() };
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.2, damping: 1.0, shaft_damping: 0.03 };
     /// Without active damping: the coupling's own is enough, and an observer that follows the cut would feed noise
     /// into it.

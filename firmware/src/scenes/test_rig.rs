@@ -13,7 +13,7 @@ use driveline::configure::{HasVibration, Machine, Rating};
 use driveline::design::{Disturbance, Encoder, SpeedLoopTuning, Tolerance};
 use driveline::fluctuation::Interleaved;
 use driveline::governor::{ActiveDamping, SpeedGovernor};
-use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Section, ShearModulus, stepped};
+use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Section, ShearModulus, Speed, Torque, stepped};
 use driveline::observer::TwoMassObserver;
 use driveline::settings::{PhasorSettings, Screening};
 
@@ -32,18 +32,21 @@ impl Machine for TestRig {
     const CHAIN: Chain =
         Chain::motor(Inertia(3.2e-5)).shaft(stepped(&ROD, ShearModulus::STEEL), Damping(6.0e-4)).rotor(Inertia(7.7e-4));
     /// 3000 r/min; 10 V are the largest torque that is commanded.
-    const RATING: Rating = Rating { torque: 0.64, speed: 314.0, torque_limit: 1.27 };
+    const RATING: Rating = Rating { torque: Torque(0.64), speed: Speed(314.0), torque_limit: Torque(1.27) };
     const ENCODER: Encoder = Encoder::lines(COUNTS / 4);
     const RATE_HZ: u32 = 10_000;
     /// The torque of a drive of that size is known to 2 % of rated in a tick. The spring swings the load all the time,
     /// as the cut of the surface grinder.
-    const DISTURBANCE: Disturbance =
-        Disturbance { torque_accuracy: 0.02 * Self::RATING.torque, load_torque_step: Self::RATING.torque, within: 0.2 };
+    const DISTURBANCE: Disturbance = Disturbance {
+        torque_accuracy: 0.02 * Self::RATING.torque.0,
+        load_torque_step: Self::RATING.torque.0,
+        within: 0.2,
+    };
     /// Its drive controls the current with 1 kHz, as servo drives of that size do.
     const TOLERANCE: Tolerance = Tolerance { lag: 1.0 / (core::f64::consts::TAU * 1_000.0), ..Tolerance::USUAL };
     /// Half as brisk as usual: the motor is so light that it jitters with the noise that the loop feeds it.
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.2, ..SpeedLoopTuning::of(&Self::TWO_MASS) };
-    const RAMP: f64 = Self::RATING.speed / 3.0;
+    const RAMP: f64 = Self::RATING.speed.0 / 3.0;
     /// Two thirds over the largest torque; 1/128 turn, more than that torque moves the motor before the observer has
     /// followed; two counts; 15 ms without an angle.
     const SCREENING: Screening =
@@ -104,8 +107,7 @@ impl Head for SmallHead {
 pub type Adviser = (TrialWeights<Quiet, 2, 2>, HeadPanel<SmallHead>);
 
 /// The drive with all four parts, on an axis.
-pub type Whole<N> =
-    OnAxis<TestRig, N, TwoMassObserver, SpeedGovernor<(), ActiveDamping>, Interleaved<BINS>>;
+pub type Whole<N> = OnAxis<TestRig, N, TwoMassObserver, SpeedGovernor<(), ActiveDamping>, Interleaved<BINS>>;
 
 variants! {
     f32: "whole": Whole for TestRig;

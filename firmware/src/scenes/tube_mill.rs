@@ -36,11 +36,12 @@ impl Machine for TubeMill {
         .shaft(Stiffness(2.0e5), Damping(200.0))
         .gear(Ratio(55.0), Efficiency(1.0))
         .rotor(Inertia(2.0e5));
-    const RATING: Rating = Rating { torque: 4_820.0, speed: 103.67, torque_limit: 1.8 * 4_820.0 };
+    const RATING: Rating =
+        Rating { torque: Torque(4_820.0), speed: Speed(103.67), torque_limit: Torque(1.8 * 4_820.0) };
     const ENCODER: Encoder = Encoder::lines(COUNTS / 4);
     const RATE_HZ: u32 = 1_000;
     /// That of the torque is fifty times the largest, for the slope of the motor's own curve: 4,800 N m s/rad.
-    const BASES: Bases = Bases::new(&Self::TWO_MASS, 50.0 * Self::RATING.torque_limit, 1.34 * Self::RATING.speed);
+    const BASES: Bases = Bases::new(&Self::TWO_MASS, 50.0 * Self::RATING.torque_limit.0, 1.34 * Self::RATING.speed.0);
 }
 
 /// Counts of the encoder on a turn.
@@ -51,10 +52,10 @@ pub const STEPS: usize = 6;
 
 /// 1000 r/min without load, breakdown at 2.5 times rated torque.
 pub const MOTOR: Induction =
-    Induction::new(Speed(TubeMill::RATING.speed), Torque(TubeMill::RATING.torque), Speed(104.72), 2.5);
+    Induction::new(Speed(TubeMill::RATING.speed.0), Torque(TubeMill::RATING.torque.0), Speed(104.72), 2.5);
 
 /// The start.
-pub const START: ResistorStart<STEPS> = MOTOR.resistor_start(Torque(TubeMill::RATING.torque_limit));
+pub const START: ResistorStart<STEPS> = MOTOR.resistor_start(Torque(TubeMill::RATING.torque_limit.0));
 
 /// The contactors' time (s), which is less than that of the last step.
 pub const INTERVAL: f64 = 0.05;
@@ -126,12 +127,7 @@ impl<N: Starting, D: OverWords<Number = N>> Beside<D> for Starter<N> {
 
     /// Released and with a setpoint above zero it starts and runs; else the stator is off.
     #[inline(always)]
-    fn tick(
-        &mut self,
-        drive: &mut D,
-        config: &ConfigOf<D>,
-        input: &Input,
-    ) -> Output {
+    fn tick(&mut self, drive: &mut D, config: &ConfigOf<D>, input: &Input) -> Output {
         let output = drive.advance(config, input);
         let torque = if input.flags & Input::RELEASED != 0 && N::from_word(input.setpoint) > N::ZERO {
             let speed = N::from_word(output.motor_speed);

@@ -16,7 +16,7 @@ use driveline::design::{
     USUAL_MARGIN,
 };
 use driveline::governor::{Barred, SpeedGovernor};
-use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Section, ShearModulus};
+use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Section, ShearModulus, Speed, Torque};
 use driveline::math::sqrt;
 use driveline::observer::TwoMassObserver;
 use driveline::settings::{Bases, Screening};
@@ -45,20 +45,20 @@ impl Machine for VibratingScreen {
         .shaft(Section::solid(Length(1.0), Diameter(0.060)).stiffness(ShearModulus::STEEL), Damping(13.0))
         .rotor(Inertia(EXCITER - UNBALANCE * UNBALANCE / (2.0 * MASSES[0])));
     /// 970 r/min.
-    const RATING: Rating = Rating { torque: 295.0, speed: 101.6, torque_limit: 2.0 * 295.0 };
+    const RATING: Rating = Rating { torque: Torque(295.0), speed: Speed(101.6), torque_limit: Torque(2.0 * 295.0) };
     const ENCODER: Encoder = Encoder::lines(COUNTS / 4);
     const RATE_HZ: u32 = 4_000;
     /// The observer must follow the box's load torque at 32 Hz: a thousand newton metres within milliseconds.
     const DISTURBANCE: Disturbance =
-        Disturbance { load_torque_step: 4.0 * Self::RATING.torque, within: 0.05, ..Self::RATING.disturbance() };
+        Disturbance { load_torque_step: 4.0 * Self::RATING.torque.0, within: 0.05, ..Self::RATING.disturbance() };
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.1, damping: 1.0, shaft_damping: 0.03 };
     /// A tenth of the antiresonance, without damping of the shaft.
     const SPEED_LOOP: SpeedLoopDesign =
         SpeedLoopDesign { damping: 0.0, ..Self::TWO_MASS.speed_loop(Self::RATE, Self::TUNING) };
-    const RAMP: f64 = Self::RATING.speed / 5.0;
+    const RAMP: f64 = Self::RATING.speed.0 / 5.0;
     /// That of the torque is a thousand times the largest, for the gains: a radian of innovation is much with such an
     /// encoder. What is left of the resolution is 2 mN m.
-    const BASES: Bases = Bases::new(&Self::TWO_MASS, 1000.0 * Self::RATING.torque_limit, 2.0 * Self::RATING.speed);
+    const BASES: Bases = Bases::new(&Self::TWO_MASS, 1000.0 * Self::RATING.torque_limit.0, 2.0 * Self::RATING.speed.0);
     /// In 20 ms the motor turns by less than half a turn.
     const SCREENING: Screening = Screening {
         innovation: core::f64::consts::TAU / 256.0,
@@ -70,7 +70,7 @@ impl Machine for VibratingScreen {
 /// What the governor does not let the machine dwell at: 10 % about either resonance. It passes through as fast as the
 /// motor can.
 impl HasBarredSpeeds<2> for VibratingScreen {
-    const BARRED: BarredSpeeds<2> = BarredSpeeds::new(&CRITICAL, &[1.0], USUAL_MARGIN, Self::RATING.speed);
+    const BARRED: BarredSpeeds<2> = BarredSpeeds::new(&CRITICAL, &[1.0], USUAL_MARGIN, Self::RATING.speed.0);
 }
 
 /// Counts of the encoder on a turn: a sine encoder of 512 lines, interpolated 1024 times. One of 2048 lines is too
@@ -90,11 +90,12 @@ pub const CRITICAL: [f64; 2] = {
 pub const fn selection() -> ObserverSelection {
     VibratingScreen::TWO_MASS.select_observer(
         &LoadCycle {
-            speed: VibratingScreen::RATING.speed,
-            torque: 2.0 * VibratingScreen::RATING.torque,
-            change: UNBALANCE * UNBALANCE * VibratingScreen::RATING.speed * VibratingScreen::RATING.speed / MASSES[0],
-            rise: 0.5 * core::f64::consts::PI / VibratingScreen::RATING.speed,
-            every: 0.5 * core::f64::consts::PI / VibratingScreen::RATING.speed,
+            speed: VibratingScreen::RATING.speed.0,
+            torque: 2.0 * VibratingScreen::RATING.torque.0,
+            change: UNBALANCE * UNBALANCE * VibratingScreen::RATING.speed.0 * VibratingScreen::RATING.speed.0
+                / MASSES[0],
+            rise: 0.5 * core::f64::consts::PI / VibratingScreen::RATING.speed.0,
+            every: 0.5 * core::f64::consts::PI / VibratingScreen::RATING.speed.0,
             reverses: true,
         },
         &Requirement::USUAL,

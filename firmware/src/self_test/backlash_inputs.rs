@@ -21,7 +21,7 @@ const HALF_GAP: f32 = 0.5 * GAP as f32;
 /// Drag of the rolls (N m s/rad), which lets the gap open.
 const DRAG: f32 = 5.0e4;
 /// Torque of the motor (N m): more than rated, for more impacts, and still plausible.
-const TORQUE: f32 = 1.6 * BloomingMill::RATING.torque_limit as f32;
+const TORQUE: f32 = 1.6 * BloomingMill::RATING.torque_limit.0 as f32;
 /// 2^32 to the turn.
 const PER_RADIAN: f32 = 4_294_967_296.0 / core::f32::consts::TAU;
 

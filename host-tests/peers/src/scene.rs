@@ -66,7 +66,7 @@ impl Scene {
             crank: None,
             bases: M::BASES,
             speed_loop: M::SPEED_LOOP,
-            torque_limit: M::RATING.torque_limit,
+            torque_limit: M::RATING.torque_limit.0,
             ramp: M::RAMP,
         }
     }

@@ -8,7 +8,7 @@ use driveline::balancing::{
 };
 use driveline::configure::{Configure, HasVibration, Machine, Rating};
 use driveline::design::Encoder;
-use driveline::machine::{Chain, Damping, Inertia, Stiffness};
+use driveline::machine::{Chain, Damping, Inertia, Speed, Stiffness, Torque};
 use driveline::number::{Fixed, Number};
 use driveline::settings::{PhasorError, PhasorSettings};
 
@@ -295,7 +295,8 @@ fn the_floor_of_a_machine_is_the_same_in_every_number() {
         ($name:ident, $floor:literal) => {
             impl Machine for $name {
                 const CHAIN: Chain = Chain::motor(Inertia(0.5)).shaft(Stiffness(5e3), Damping(4.0)).rotor(Inertia(2.0));
-                const RATING: Rating = Rating { torque: 286.0, speed: 77.0, torque_limit: 572.0 };
+                const RATING: Rating =
+                    Rating { torque: Torque(286.0), speed: Speed(77.0), torque_limit: Torque(572.0) };
                 const ENCODER: Encoder = Encoder::counts(4096);
                 const RATE_HZ: u32 = 10_000;
             }

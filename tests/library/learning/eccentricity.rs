@@ -6,7 +6,7 @@ use driveline::design::{Disturbance, Encoder};
 use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::SpeedLoop;
 use driveline::learning::{EccentricityConfig, EccentricityObserver, Finding};
-use driveline::machine::{Chain, Damping, Inertia, Stiffness};
+use driveline::machine::{Chain, Damping, Inertia, Speed, Stiffness, Torque};
 use driveline::number::Fixed;
 use driveline::observer::{GearedObserver, SemiImplicitObserver, TwoMassObserver};
 use driveline::sample::Sample;
@@ -167,18 +167,18 @@ struct Spindle;
 
 impl Machine for Spindle {
     const CHAIN: Chain = Chain::motor(Inertia(0.012)).shaft(Stiffness(7.6e4), Damping(0.3)).rotor(Inertia(0.004));
-    const RATING: Rating = Rating { torque: 70.0, speed: 314.0, torque_limit: 110.0 };
-    const ENCODER: Encoder = Encoder::lines(131_072).interpolation(512, 0.005).jitter(0.1e-6, Self::RATING.speed);
+    const RATING: Rating = Rating { torque: Torque(70.0), speed: Speed(314.0), torque_limit: Torque(110.0) };
+    const ENCODER: Encoder = Encoder::lines(131_072).interpolation(512, 0.005).jitter(0.1e-6, Self::RATING.speed.0);
     const RATE_HZ: u32 = 10_000;
     const DISTURBANCE: Disturbance =
-        Disturbance { load_torque_step: 1.5 * Self::RATING.torque, ..Self::RATING.disturbance() };
+        Disturbance { load_torque_step: 1.5 * Self::RATING.torque.0, ..Self::RATING.disturbance() };
 }
 
 /// Its observer follows an error of once a turn: its innovation contains nothing of it.
 #[test]
 fn where_the_sensitivity_is_small_nothing_is_learnt() {
     let config = EccentricityConfig::new(&<Spindle as Machine>::OBSERVER, 1e-3, 0.4);
-    let (re, im) = config.sensitivity(<Spindle as Machine>::RATING.speed);
+    let (re, im) = config.sensitivity(<Spindle as Machine>::RATING.speed.0);
     assert!(re.hypot(im) < 0.1, "{re} {im}");
 }
 

@@ -4,7 +4,7 @@ use driveline::configure::{Configure, Family, Machine, Rating, ScheduleOf, Sched
 use driveline::design::{StepChoice, TwoMassDesign};
 use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::SpeedLoop;
-use driveline::machine::{Match, TwoMass};
+use driveline::machine::{Match, Speed, Torque, TwoMass};
 use driveline::number::{Fixed, Number};
 use driveline::observer::{BacklashConfig, BacklashObserver, Observer, SemiImplicitObserver, TwoMassObserver};
 use driveline::prelude::{Chain, Damping, Encoder, Inertia, Stiffness};
@@ -23,7 +23,7 @@ const fn member(load: f64, shaft: f64) -> TwoMass {
 
 impl Machine for Winch {
     const CHAIN: Chain = Chain::motor(Inertia(0.62)).shaft(Stiffness(900.0), Damping(0.5)).rotor(Inertia(0.2));
-    const RATING: Rating = Rating { torque: 200.0, speed: 150.0, torque_limit: 300.0 };
+    const RATING: Rating = Rating { torque: Torque(200.0), speed: Speed(150.0), torque_limit: Torque(300.0) };
     const ENCODER: Encoder = Encoder::lines(2048);
     const RATE_HZ: u32 = 4_000;
     /// Both steps are tried.

@@ -15,8 +15,8 @@ use driveline::settings::Bases;
 use driveline_solver::plant::{Chain, Plant, Shaft};
 
 /// The hoist's rated speed (rad/s) and largest torque (N m), its two masses, and its bases of fixed point.
-pub const RATED_SPEED: f64 = Hoist::<10_000>::RATING.speed;
-pub const TORQUE_LIMIT: f64 = Hoist::<10_000>::RATING.torque_limit;
+pub const RATED_SPEED: f64 = Hoist::<10_000>::RATING.speed.0;
+pub const TORQUE_LIMIT: f64 = Hoist::<10_000>::RATING.torque_limit.0;
 pub const REDUCED: TwoMass = Hoist::<10_000>::TWO_MASS;
 pub const BASES: Bases = Hoist::<10_000>::BASES;
 

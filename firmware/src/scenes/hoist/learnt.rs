@@ -40,13 +40,14 @@ const EVERY: f64 = LEARNER_TICKS as f64 / M::RATE_HZ as f64;
 const MASS: LoadMassConfig = LoadMassConfig::new(TRAVEL, 0.2, 0.05, [500.0, 13_000.0]);
 /// A gearbox of this size loses from 1 % to 15 %.
 const EFFICIENCY: [f64; 2] = [0.85, 0.99];
-const LOSS: GearLossConfig = GearLossConfig::new(M::RATING.torque, M::RATING.speed, EFFICIENCY, EVERY);
-const TORQUE: TorqueConstantConfig = TorqueConstantConfig::new(M::RATING.torque, M::RATING.speed, EFFICIENCY, EVERY);
+const LOSS: GearLossConfig = GearLossConfig::new(M::RATING.torque.0, M::RATING.speed.0, EFFICIENCY, EVERY);
+const TORQUE: TorqueConstantConfig =
+    TorqueConstantConfig::new(M::RATING.torque.0, M::RATING.speed.0, EFFICIENCY, EVERY);
 /// Inertia in front of the rope, by the drawings, and how far the motor's may be from it.
 const MOTOR: f64 = M::TWO_MASS.motor_inertia;
 const MOTOR_RANGE: [f32; 2] = [0.75, 1.25];
 /// From an empty hook behind the lightest motor to the largest load behind the heaviest.
-const RUN_UP: RunUpConfig = RunUpConfig::new(M::RATING.torque, M::RATING.speed, [0.7 * MOTOR, 2.1 * MOTOR], EVERY);
+const RUN_UP: RunUpConfig = RunUpConfig::new(M::RATING.torque.0, M::RATING.speed.0, [0.7 * MOTOR, 2.1 * MOTOR], EVERY);
 /// Up to a tenth of a degree, from ten turns at rated speed.
 ///
 /// Generic and called through a constant pointer for the reason given at [`at_rest`](crate::scene::at_rest).

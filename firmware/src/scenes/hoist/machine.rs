@@ -5,7 +5,8 @@ use driveline::design::{
     Disturbance, Encoder, SpeedLoopDesign, SpeedLoopTuning, Spread, StepChoice, Tolerance, TwoMassDesign,
 };
 use driveline::machine::{
-    Chain, Damping, Diameter, Efficiency, Falls, Inertia, LinearDamping, Mass, Match, Ratio, Stiffness, TwoMass,
+    Chain, Damping, Diameter, Efficiency, Falls, Inertia, LinearDamping, Mass, Match, Ratio, Speed, Stiffness, Torque,
+    TwoMass,
 };
 use driveline::settings::{Bases, Gear, Screening};
 
@@ -80,7 +81,7 @@ const fn inverse<const K: usize>(values: [f64; K], over: f64) -> [f64; K] {
 impl<const RATE_HZ: u32> Machine for Hoist<RATE_HZ> {
     const CHAIN: Chain = chain(12_000.0, 12.0);
     /// 1480 r/min.
-    const RATING: Rating = Rating { torque: 750.0, speed: 155.0, torque_limit: 1_350.0 };
+    const RATING: Rating = Rating { torque: Torque(750.0), speed: Speed(155.0), torque_limit: Torque(1_350.0) };
     const ENCODER: Encoder = Encoder::lines(2048);
     const RATE_HZ: u32 = RATE_HZ;
     /// The load may wander by 300 N m, two fifths of a load, in 50 s. The torque counts as less accurate in a tick than
@@ -103,8 +104,8 @@ impl<const RATE_HZ: u32> Machine for Hoist<RATE_HZ> {
         torque: Spread::within(0.03),
         ..Tolerance::USUAL
     };
-    const RAMP: f64 = Self::RATING.speed / 2.0;
-    const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit, 1.34 * Self::RATING.speed);
+    const RAMP: f64 = Self::RATING.speed.0 / 2.0;
+    const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit.0, 1.34 * Self::RATING.speed.0);
     /// In 15 ms the motor turns by less than half a turn.
     const SCREENING: Screening =
         Screening { max_coast: RATE_HZ / 67, ..Self::RATING.screening(Self::ENCODER, Self::RATE) };

@@ -194,7 +194,7 @@ impl FileCase {
         let (rate, encoder, _) = self.machine.tuning();
         let rating = self.machine.rating();
         let limits = Limits::<f32>::try_new(&rating.screening(encoder, rate), Bases::SI).map_err(sentence)?;
-        let governor = governor(speed_loop, rating.torque_limit, *ramp)?;
+        let governor = governor(speed_loop, rating.torque_limit.0, *ramp)?;
         let Losses { before: [efficiency, _], behind: [driving, driven] } = self.machine.chain.losses();
         let deadband = 8.0 * encoder.resolution().map_err(|error| error.to_string())?;
         let gear = Gear { efficiency, inertia: two.motor_inertia, deadband };

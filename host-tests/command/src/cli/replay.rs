@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use clap::{ArgGroup, Args};
 use driveline::configure::Rating;
 use driveline::design::{Encoder, Rate};
-use driveline::machine::Losses;
+use driveline::machine::{Losses, Speed, Torque};
 use driveline::settings::{Gear, LoadGear};
 use serde_json::json;
 
@@ -268,7 +268,8 @@ impl Replay {
             None
         };
         let (torque, speed) = (machine.limits.torque, machine.limits.speed);
-        let screening = Rating { torque, speed, torque_limit: torque }.screening(encoder, rate);
+        let screening = Rating { torque: Torque(torque), speed: Speed(speed), torque_limit: Torque(torque) }
+            .screening(encoder, rate);
         replay(signals, &design, gear.as_ref(), &screening, [torque, speed], tick)
             .map_err(|error| Failure::usage(format!("{}: {error}", path.display())))
     }

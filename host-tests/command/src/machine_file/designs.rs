@@ -9,7 +9,7 @@ use driveline::design::{
     Plant, PredictedErrors, Rate, Requirement, RigidDesign, Robustness, SpeedLoopDesign, SpeedLoopTuning, Spread,
     StepChoice, Tolerance, TwoMassDesign,
 };
-use driveline::machine::{Match, TwoMass};
+use driveline::machine::{Match, Speed, Torque, TwoMass};
 
 use super::factor::Factor;
 use super::{Duty, MachineFile};
@@ -265,7 +265,11 @@ impl MachineFile {
 
     /// Rating of the motor.
     pub fn rating(&self) -> Rating {
-        Rating { torque: self.limits.rated_torque, speed: self.limits.speed, torque_limit: self.limits.torque }
+        Rating {
+            torque: Torque(self.limits.rated_torque),
+            speed: Speed(self.limits.speed),
+            torque_limit: Torque(self.limits.torque),
+        }
     }
 
     /// Delay and lag of the torque.

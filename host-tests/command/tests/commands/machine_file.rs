@@ -42,7 +42,7 @@ fn the_file_and_the_scene_are_one_hoist() {
     assert_eq!(hoist.chain, Hoist::<10_000>::CHAIN);
     assert_eq!(
         (hoist.limits.torque, hoist.limits.speed),
-        (Hoist::<10_000>::RATING.torque_limit, Hoist::<10_000>::RATING.speed)
+        (Hoist::<10_000>::RATING.torque_limit.0, Hoist::<10_000>::RATING.speed.0)
     );
     // the file's observer is for a livelier load: a change of three tenths of rated torque every 2 s
     let Disturbance { load_torque_step, within, .. } = Hoist::<10_000>::DISTURBANCE;

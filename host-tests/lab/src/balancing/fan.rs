@@ -44,7 +44,7 @@ fn model() -> Result<Model, BalancingError> {
 
 /// Permissible unbalance of a plane in a grade (kg m): each carries half the rotor.
 fn permissible(grade: f64) -> f64 {
-    0.5 * ROTOR[0] * grade * 1e-3 / BalancedFan::RATING.speed
+    0.5 * ROTOR[0] * grade * 1e-3 / BalancedFan::RATING.speed.0
 }
 
 /// The grade that the worse of the planes is in.
@@ -57,18 +57,18 @@ fn machine(words: Words, model: &Model, found: &[Complex<f64>], seed: u64) -> Re
     let drivetrain = Drivetrain {
         plant,
         rotor: 1,
-        load: 0.9 * BalancedFan::RATING.torque / BalancedFan::RATING.speed.powi(2),
+        load: 0.9 * BalancedFan::RATING.torque.0 / BalancedFan::RATING.speed.0.powi(2),
         // ten blades, and a misaligned coupling
         torque: 0.0,
         ripple: vec![(10.0, 40.0), (2.0, 30.0)],
-        rated: BalancedFan::RATING.speed,
-        torque_noise: 0.01 * BalancedFan::RATING.torque,
+        rated: BalancedFan::RATING.speed.0,
+        torque_noise: 0.01 * BalancedFan::RATING.torque.0,
     };
     let mut whirl = Whirl::new(Modal::of(model)?, 1.0 / f64::from(BalancedFan::RATE_HZ));
     whirl.set_unbalance(found)?;
     // The noise is 20 dB below the vibration as it is found.
-    let amplitude = model.response(BalancedFan::RATING.speed, found)?.iter().map(|x| x.norm()).fold(0.0, f64::max);
-    let noise = 0.1 * amplitude * BalancedFan::RATING.speed / 2f64.sqrt();
+    let amplitude = model.response(BalancedFan::RATING.speed.0, found)?.iter().map(|x| x.norm()).fold(0.0, f64::max);
+    let noise = 0.1 * amplitude * BalancedFan::RATING.speed.0 / 2f64.sqrt();
     let sensor = |seed: u64, share: f64, phase: f64| {
         Faulty::new(Transducer::Velocity, seed)
             .error(share, f64::to_radians(phase))
@@ -140,7 +140,7 @@ pub fn run(words: Words, drive: &mut dyn Ticks, seed: u64) -> Result<Outcome, Ba
         claims,
         operator,
         &model,
-        1.25 * BalancedFan::RATING.speed,
+        1.25 * BalancedFan::RATING.speed.0,
     )
 }
 
@@ -150,7 +150,7 @@ fn rows() -> Vec<String> {
 
 /// To speed, and a reading of both channels.
 fn measure(operator: &mut Operator<'_>) -> Result<(), BalancingError> {
-    operator.bring_to(BalancedFan::RATING.speed, SETTLE)?;
+    operator.bring_to(BalancedFan::RATING.speed.0, SETTLE)?;
     operator.read()?;
     operator.press(Key::Row, 0)
 }
@@ -174,7 +174,7 @@ fn stage(
     Ok(Stage {
         name: name.to_owned(),
         unbalance: unbalance.iter().map(|&u| Vector::of(u)).collect(),
-        vibration: model.response(BalancedFan::RATING.speed, unbalance)?.into_iter().map(Vector::of).collect(),
+        vibration: model.response(BalancedFan::RATING.speed.0, unbalance)?.into_iter().map(Vector::of).collect(),
         read,
         measure: grade(unbalance),
         time: operator.machine.time(),

@@ -57,8 +57,8 @@ fn machine(words: Words, model: &Model, found: &[Complex<f64>], seed: u64) -> Re
         load: 0.0,
         torque: 0.0,
         ripple: vec![(1.0, 2.0), (6.0, 4.0)],
-        rated: Flexible::RATING.speed,
-        torque_noise: 0.01 * Flexible::RATING.torque,
+        rated: Flexible::RATING.speed.0,
+        torque_noise: 0.01 * Flexible::RATING.torque.0,
     };
     let mut whirl = Whirl::new(Modal::of(model)?.lowest(KEPT), 1.0 / f64::from(Flexible::RATE_HZ));
     whirl.set_unbalance(found)?;

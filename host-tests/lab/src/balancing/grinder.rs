@@ -25,10 +25,10 @@ use driveline_solver::plant::{Chain, Shaft};
 use driveline_solver::rotor::{Bearing, Direction, Faulty, Modal, Model, Polar, RigidRotor, Transducer, Whirl};
 
 /// Rated speed (rad/s).
-const SPEED: f64 = SurfaceGrinder::RATING.speed;
+const SPEED: f64 = SurfaceGrinder::RATING.speed.0;
 /// Torque of coolant and air, which is there from the start, and mean torque of the cut beside it (N m).
-const IDLE: f64 = 0.1 * SurfaceGrinder::RATING.torque;
-const CUT: f64 = 0.4 * SurfaceGrinder::RATING.torque;
+const IDLE: f64 = 0.1 * SurfaceGrinder::RATING.torque.0;
+const CUT: f64 = 0.4 * SurfaceGrinder::RATING.torque.0;
 /// Swing of the cut once and twice a turn, as a share of its mean.
 const SWING: [f64; 2] = [0.8, 0.3];
 /// Time for speed and whirl to settle at first, for the speed after the cut has begun, and for the whirl after the head
@@ -149,7 +149,7 @@ fn machine(words: Words, model: &Model, found: Complex<f64>, start: &GrinderStar
         torque: 0.0,
         ripple: Vec::new(),
         rated: SPEED,
-        torque_noise: 0.01 * SurfaceGrinder::RATING.torque,
+        torque_noise: 0.01 * SurfaceGrinder::RATING.torque.0,
     };
     let mut whirl = Whirl::new(Modal::of(model)?, 1.0 / f64::from(SurfaceGrinder::RATE_HZ));
     whirl.set_unbalance(&[found])?;

@@ -30,7 +30,7 @@ const SPEED: f64 = scene::SPEED;
 /// Motor with half coupling, and disc (kg m2).
 const INERTIA: [f64; 2] = [3.2e-5, 7.7e-4];
 /// Torque of the brake, and of the spring once and twice a turn (N m).
-const BRAKE: f64 = 0.3 * TestRig::RATING.torque;
+const BRAKE: f64 = 0.3 * TestRig::RATING.torque.0;
 const SPRING: [f64; 2] = [0.1, 0.03];
 /// Time for speed and whirl to settle at first, and after each change (s).
 const SETTLE: [f64; 2] = [1.5, 1.0];
@@ -81,7 +81,7 @@ pub fn rig(start: &GrinderStart) -> Result<(Course, Vec<Claim>), BalancingError>
     let predicted = TestRig::OBSERVER.standard_deviation.shaft_torque;
     let mut claims =
         vec![claim("error of the shaft torque, rms, over the design's", deviations(seen)[2] / predicted, 1.0)];
-    claims.extend(observed(seen, TestRig::RATING.speed));
+    claims.extend(observed(seen, TestRig::RATING.speed.0));
     // the load's speed deviates by 0.15 rad/s, its delta is 2.9 rad/s; of the motor as in the grinder
     claims.extend(told.claims(seen, PERIOD, 1.0));
     claims.extend(governed(&seen[braked..swinging], &whole_turns(window))?);
@@ -137,7 +137,7 @@ fn machine(model: &Model, found: nalgebra::Complex<f64>, start: &GrinderStart) -
         torque: 0.0,
         ripple: Vec::new(),
         rated: SPEED,
-        torque_noise: 0.02 * TestRig::RATING.torque,
+        torque_noise: 0.02 * TestRig::RATING.torque.0,
     };
     let mut whirl = Whirl::new(Modal::of(model)?, PERIOD);
     whirl.set_unbalance(&[found])?;

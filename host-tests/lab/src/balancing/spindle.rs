@@ -84,13 +84,13 @@ pub fn spindle(words: Words, drive: &mut dyn Ticks, start: &SpindleStart) -> Res
     let model = start.model()?;
     let found = Polar::degrees(start.unbalance.size, start.unbalance.angle);
     let mut operator = Operator::new(machine(words, &model, found, start)?, drive);
-    operator.bring_to(GrindingSpindle::RATING.speed, SETTLE[0])?;
-    let run = HeadRun { model: &model, speed: GrindingSpindle::RATING.speed, rate: RATE, settle: SETTLE[1] };
+    operator.bring_to(GrindingSpindle::RATING.speed.0, SETTLE[0])?;
+    let run = HeadRun { model: &model, speed: GrindingSpindle::RATING.speed.0, rate: RATE, settle: SETTLE[1] };
     let (course, stages) = run.balance(&mut operator, found)?;
     let claims = course.claims();
     let rows = ["front bearing", "rear bearing"].map(str::to_owned).to_vec();
     let measure = "share of the vibration that is left";
-    let highest = 1.25 * GrindingSpindle::RATING.speed;
+    let highest = 1.25 * GrindingSpindle::RATING.speed.0;
     let outcome = super::scene::outcome("grinding-spindle", measure, rows, stages, claims, operator, &model, highest)?;
     Ok((course, outcome))
 }
@@ -105,17 +105,17 @@ fn machine(words: Words, model: &Model, found: Complex<f64>, start: &SpindleStar
     let drivetrain = Drivetrain {
         plant,
         rotor: 1,
-        load: 0.5 * GrindingSpindle::RATING.torque / GrindingSpindle::RATING.speed.powi(2),
+        load: 0.5 * GrindingSpindle::RATING.torque.0 / GrindingSpindle::RATING.speed.0.powi(2),
         torque: 0.0,
         ripple: vec![(1.0, start.ripple), (4.0, 1.0)],
-        rated: GrindingSpindle::RATING.speed,
-        torque_noise: 0.01 * GrindingSpindle::RATING.torque,
+        rated: GrindingSpindle::RATING.speed.0,
+        torque_noise: 0.01 * GrindingSpindle::RATING.torque.0,
     };
     let mut whirl = Whirl::new(Modal::of(model)?, 1.0 / f64::from(GrindingSpindle::RATE_HZ));
     whirl.set_unbalance(&[found])?;
     // The noise is 20 dB below the vibration as it is found.
-    let response = model.response(GrindingSpindle::RATING.speed, &[found])?;
-    let acceleration = response.iter().map(|x| x.norm()).fold(0.0, f64::max) * GrindingSpindle::RATING.speed.powi(2);
+    let response = model.response(GrindingSpindle::RATING.speed.0, &[found])?;
+    let acceleration = response.iter().map(|x| x.norm()).fold(0.0, f64::max) * GrindingSpindle::RATING.speed.0.powi(2);
     let noise = 0.1 * acceleration / 2f64.sqrt();
     let sensor = |(share, phase): (f64, f64), seed: u64| {
         Faulty::new(Transducer::Acceleration, seed)

@@ -75,8 +75,8 @@ fn crane() -> Result<Case, PlantError> {
         settings: HOIST,
         counts: 8192,
         eccentricity: [1.5e-3, 0.7],
-        torque_noise: 0.01 * Hoist::<10_000>::RATING.torque,
-        rated_torque: Hoist::<10_000>::RATING.torque,
+        torque_noise: 0.01 * Hoist::<10_000>::RATING.torque.0,
+        rated_torque: Hoist::<10_000>::RATING.torque.0,
         shaft: 1,
         truth: Truth::of(&[0.62, 0.08, mass], &[shaft, rope], &[2.0, damping])
             .friction(0.5 * HELD * (1.0 / efficiency - efficiency), 0.0)
@@ -87,7 +87,7 @@ fn crane() -> Result<Case, PlantError> {
 
 /// The blooming mill without a bar.
 fn mill() -> Result<Case, PlantError> {
-    let friction = 0.05 * BloomingMill::RATING.torque;
+    let friction = 0.05 * BloomingMill::RATING.torque.0;
     let chain = Chain::motor(1.1e5)
         .shaft(Shaft::elastic(1.2e9).damping(3.0e5), 1.0e4)
         .shaft(Shaft::elastic(2.2e8).damping(1.0e5).gap(0.010), 2.2e4)
@@ -102,8 +102,8 @@ fn mill() -> Result<Case, PlantError> {
         settings: MILL,
         counts: 32_768,
         eccentricity: [0.4e-3, -2.0],
-        torque_noise: 0.01 * BloomingMill::RATING.torque,
-        rated_torque: BloomingMill::RATING.torque,
+        torque_noise: 0.01 * BloomingMill::RATING.torque.0,
+        rated_torque: BloomingMill::RATING.torque.0,
         shaft: 1,
         truth: Truth::of(&[1.1e5, 1.0e4, 2.2e4], &[1.2e9, 2.2e8], &[3.0e5, 1.0e5])
             .friction(friction, 0.0)
@@ -137,8 +137,8 @@ fn tool() -> Result<Case, PlantError> {
         settings: SPINDLE,
         counts: spindle::COUNTS,
         eccentricity: [0.1e-3, 2.2],
-        torque_noise: 0.01 * Spindle::RATING.torque,
-        rated_torque: Spindle::RATING.torque,
+        torque_noise: 0.01 * Spindle::RATING.torque.0,
+        rated_torque: Spindle::RATING.torque.0,
         shaft: 0,
         truth: Truth::of(&[0.012, 0.004], &[stiffness], &[0.3]).friction(0.0, drag).eccentricity([0.1e-3, 2.2]),
     })

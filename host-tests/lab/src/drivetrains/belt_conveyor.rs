@@ -36,7 +36,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         .program(LoadProgram::table(&[(20.0, 0.0), (25.0, 0.3 * RESISTANCE)]))
         .build()?;
     let rating = BeltConveyor::RATING;
-    let torque_noise = 0.01 * rating.torque;
+    let torque_noise = 0.01 * rating.torque.0;
     Ok(Machine {
         name: scene::SCENE,
         summary: "A belt conveyor of 400 m: a soft start under load, more load, a stop.",
@@ -47,7 +47,11 @@ pub fn machine() -> Result<Machine, PlantError> {
             name: "soft start, more load, stop",
             plant: plant.into(),
             held: 0.0,
-            actions: vec![(0.5, Action::Release), (0.5, Action::Setpoint(rating.speed)), (32.0, Action::Setpoint(0.0))],
+            actions: vec![
+                (0.5, Action::Release),
+                (0.5, Action::Setpoint(rating.speed.0)),
+                (32.0, Action::Setpoint(0.0)),
+            ],
             duration: 48.0,
             counted: true,
             marks: vec![(0.5, "soft start"), (20.0, "a third more load"), (32.0, "stop")],
@@ -60,7 +64,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         load_torque: |plant| plant.load_torque(2),
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: rating.speed,
+        rated_speed: rating.speed.0,
         bases: BeltConveyor::BASES,
     })
 }

@@ -18,10 +18,10 @@ const LOAD: usize = 2;
 const SPINDLES: usize = 1;
 
 /// Friction of the roll bearings and the pinion stand (N m): 5 % of rated torque.
-const FRICTION: f64 = 0.05 * BloomingMill::RATING.torque;
+const FRICTION: f64 = 0.05 * BloomingMill::RATING.torque.0;
 
 /// Rolling torque of a middle pass (N m).
-pub const ROLLING: f64 = 0.55 * BloomingMill::RATING.torque;
+pub const ROLLING: f64 = 0.55 * BloomingMill::RATING.torque.0;
 
 fn spindle_torque(plant: &Body) -> f64 {
     plant.shaft_torque(SPINDLES)
@@ -54,7 +54,7 @@ pub fn machine() -> Result<Machine, PlantError> {
 /// # Errors
 /// A figure of the plant that is out of range.
 pub fn uncoupled(by: &Departure) -> Result<Scenario, PlantError> {
-    let [slow, fast] = [0.3, 0.9].map(|share| share * BloomingMill::RATING.speed);
+    let [slow, fast] = [0.3, 0.9].map(|share| share * BloomingMill::RATING.speed.0);
     let there = [slow, fast, slow];
     let back = there.map(|speed| -speed);
     let speeds = [&there[..], &back, &there, &back, &[slow]].concat();
@@ -85,7 +85,7 @@ pub fn uncoupled(by: &Departure) -> Result<Scenario, PlantError> {
 /// # Errors
 /// A figure of the plant that is out of range.
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
-    let slow = 0.5 * BloomingMill::RATING.speed;
+    let slow = 0.5 * BloomingMill::RATING.speed.0;
     let passes = Scenario {
         name: "two passes with a reversal between",
         plant: chain(
@@ -123,13 +123,13 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
         chosen: ("slack", 10_000),
         scenarios: vec![passes],
         encoder: Encoder::new(32_768),
-        torque_noise: 0.01 * BloomingMill::RATING.torque,
+        torque_noise: 0.01 * BloomingMill::RATING.torque.0,
         load: LOAD,
         shaft_torque: spindle_torque,
         load_torque: |plant| plant.load_torque(LOAD),
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: BloomingMill::RATING.speed,
+        rated_speed: BloomingMill::RATING.speed.0,
         bases: BloomingMill::BASES,
     })
 }

@@ -53,8 +53,8 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
         held: 0.0,
         actions: vec![
             (0.1, Action::Release),
-            (0.1, Action::Setpoint(Converter::RATING.speed)),
-            (5.5, Action::Setpoint(-Converter::RATING.speed)),
+            (0.1, Action::Setpoint(Converter::RATING.speed.0)),
+            (5.5, Action::Setpoint(-Converter::RATING.speed.0)),
             (9.0, Action::Setpoint(0.0)),
         ],
         duration: 11.0,
@@ -70,13 +70,13 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
         chosen: ("slack", 10_000),
         scenarios: vec![tilting],
         encoder: Encoder::new(8192),
-        torque_noise: 0.01 * Converter::RATING.torque,
+        torque_noise: 0.01 * Converter::RATING.torque.0,
         load: LOAD,
         shaft_torque: trunnion_torque,
         load_torque: |plant| plant.load_torque(LOAD),
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: Converter::RATING.speed,
+        rated_speed: Converter::RATING.speed.0,
         bases: Converter::BASES,
     })
 }

@@ -110,7 +110,7 @@ pub fn machine() -> Result<Machine, PlantError> {
 /// # Errors
 /// A figure of the plant that is out of range.
 pub fn with(pinions: &[Pinion; MOTORS]) -> Result<Machine, PlantError> {
-    let torque_noise = 0.01 * ConverterRing::RATING.torque;
+    let torque_noise = 0.01 * ConverterRing::RATING.torque.0;
     let mut facts = facts::of_design(&ConverterRing::OBSERVER, 8192, torque_noise);
     facts.push(fact("torque bias", format!("{:.0} N m of preload at each pinion", ConverterRing::SHARING.preload)));
     let tilting = Scenario {
@@ -119,8 +119,8 @@ pub fn with(pinions: &[Pinion; MOTORS]) -> Result<Machine, PlantError> {
         held: 0.0,
         actions: vec![
             (0.1, Action::Release),
-            (0.1, Action::Setpoint(ConverterRing::RATING.speed)),
-            (REVERSAL[0], Action::Setpoint(-ConverterRing::RATING.speed)),
+            (0.1, Action::Setpoint(ConverterRing::RATING.speed.0)),
+            (REVERSAL[0], Action::Setpoint(-ConverterRing::RATING.speed.0)),
             (9.8, Action::Setpoint(0.0)),
         ],
         duration: 10.8,
@@ -145,7 +145,7 @@ pub fn with(pinions: &[Pinion; MOTORS]) -> Result<Machine, PlantError> {
         load_torque: |plant| plant.load_torque(VESSEL),
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: ConverterRing::RATING.speed,
+        rated_speed: ConverterRing::RATING.speed.0,
         bases: ConverterRing::BASES,
     })
 }

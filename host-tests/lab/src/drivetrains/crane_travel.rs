@@ -80,8 +80,8 @@ pub fn test_weight(by: &Departure) -> Result<Scenario, PlantError> {
 }
 
 /// Speeds of the runs for the learners (rad/s).
-const SLOW: f64 = 0.35 * CraneTravel::RATING.speed;
-const FAST: f64 = 0.9 * CraneTravel::RATING.speed;
+const SLOW: f64 = 0.35 * CraneTravel::RATING.speed.0;
+const FAST: f64 = 0.9 * CraneTravel::RATING.speed.0;
 
 /// A run for the learners with a mass on the rope (kg) that a key of the panel names, at speeds (rad/s) for a time (s).
 fn learning(
@@ -126,7 +126,7 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
         .shaft(Shaft::elastic(PENDULUM * by.load / by.rope), LOAD * square * by.load)
         .program(LoadProgram::table(&[(16.0, 0.0), (18.0, WIND), (24.0, WIND), (26.0, 0.0)]))
         .build()?;
-    let torque_noise = 0.01 * CraneTravel::RATING.torque;
+    let torque_noise = 0.01 * CraneTravel::RATING.torque.0;
     Ok(Machine {
         name: scene::SCENE,
         summary: "A bridge crane of 16 t travels with its load swinging.",
@@ -144,8 +144,8 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
             held: 0.0,
             actions: vec![
                 (0.1, Action::Release),
-                (0.1, Action::Setpoint(CraneTravel::RATING.speed)),
-                (28.0, Action::Setpoint(0.4 * CraneTravel::RATING.speed)),
+                (0.1, Action::Setpoint(CraneTravel::RATING.speed.0)),
+                (28.0, Action::Setpoint(0.4 * CraneTravel::RATING.speed.0)),
             ],
             duration: 40.0,
             counted: true,
@@ -159,7 +159,7 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
         load_torque: resistance,
         told_brake: None,
         told_friction: TOLD,
-        rated_speed: CraneTravel::RATING.speed,
+        rated_speed: CraneTravel::RATING.speed.0,
         bases: CraneTravel::BASES,
     })
 }

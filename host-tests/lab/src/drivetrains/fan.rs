@@ -18,7 +18,7 @@ fn coupling(plant: &Body) -> f64 {
 
 fn air(fan: &Body) -> f64 {
     let speed = fan.speed(1);
-    AIR * speed * speed.abs() / (Fan::RATING.speed * Fan::RATING.speed)
+    AIR * speed * speed.abs() / (Fan::RATING.speed.0 * Fan::RATING.speed.0)
 }
 
 /// The fan and its run.
@@ -27,7 +27,7 @@ fn air(fan: &Body) -> f64 {
 /// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
     let plant = Chain::motor(0.35).shaft(Shaft::elastic(1.2e5).damping(8.0), 4.5).coulomb(4.0).build()?;
-    let torque_noise = 0.01 * Fan::RATING.torque;
+    let torque_noise = 0.01 * Fan::RATING.torque.0;
     let two = Fan::TWO_MASS;
     Ok(Machine {
         name: fan::SCENE,
@@ -46,9 +46,9 @@ pub fn machine() -> Result<Machine, PlantError> {
             held: 0.0,
             actions: vec![
                 (0.1, Action::Release),
-                (0.1, Action::Setpoint(Fan::RATING.speed)),
-                (14.0, Action::Setpoint(0.6 * Fan::RATING.speed)),
-                (22.0, Action::Setpoint(0.9 * Fan::RATING.speed)),
+                (0.1, Action::Setpoint(Fan::RATING.speed.0)),
+                (14.0, Action::Setpoint(0.6 * Fan::RATING.speed.0)),
+                (22.0, Action::Setpoint(0.9 * Fan::RATING.speed.0)),
             ],
             duration: 30.0,
             counted: true,
@@ -62,7 +62,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         load_torque: |plant| plant.load_torque(1),
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: Fan::RATING.speed,
+        rated_speed: Fan::RATING.speed.0,
         bases: Fan::BASES,
     })
 }

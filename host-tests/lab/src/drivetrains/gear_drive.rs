@@ -21,7 +21,7 @@ const PINION: usize = 6;
 const RATIO: f64 = 50.0 / 21.0;
 
 /// Rated torque at the driven machine (N m).
-const RATED: f64 = GearDrive::RATING.torque * RATIO;
+const RATED: f64 = GearDrive::RATING.torque.0 * RATIO;
 
 /// Load of the driven machine at rated speed, of rated torque, growing with the square of the speed.
 const ROTARY: f64 = 0.4;
@@ -82,7 +82,7 @@ fn pair(error: f64) -> GearPair {
 pub fn train(error: f64) -> Train {
     let mut program = Vec::new();
     load(&mut program, 2.0, 2.5, 0.5 * RATED);
-    let speed = GearDrive::RATING.speed / RATIO;
+    let speed = GearDrive::RATING.speed.0 / RATIO;
     pair(error)
         .train()
         .source(LOAD, Source::Program(LoadProgram::table(&program)))
@@ -100,7 +100,7 @@ pub fn body(motion: Motion) -> Body {
 /// # Errors
 /// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
-    let torque_noise = 0.01 * GearDrive::RATING.torque;
+    let torque_noise = 0.01 * GearDrive::RATING.torque.0;
     Ok(Machine {
         name: scene::SCENE,
         summary: "A single-stage gear drive of 37 kW whose teeth excite it: run-up, a load that comes and goes.",
@@ -115,7 +115,7 @@ pub fn machine() -> Result<Machine, PlantError> {
             name: "run-up, a load that comes and goes",
             plant: body(train(TOOTH_ERROR).build()?),
             held: 0.0,
-            actions: vec![(0.05, Action::Release), (0.05, Action::Setpoint(GearDrive::RATING.speed))],
+            actions: vec![(0.05, Action::Release), (0.05, Action::Setpoint(GearDrive::RATING.speed.0))],
             duration: 3.0,
             counted: true,
             marks: vec![(0.05, "run-up"), (2.0, "load"), (2.5, "off")],
@@ -128,7 +128,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         load_torque: |plant| plant.load_torque(LOAD),
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: GearDrive::RATING.speed,
+        rated_speed: GearDrive::RATING.speed.0,
         bases: GearDrive::BASES,
     })
 }

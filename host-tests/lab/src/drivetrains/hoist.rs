@@ -82,12 +82,12 @@ const RELEASE: [(f64, Action); 3] =
 /// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
     let by = &Departure::NONE;
-    let hoisting = (0.2, Action::Setpoint(Hoist::<10_000>::RATING.speed));
+    let hoisting = (0.2, Action::Setpoint(Hoist::<10_000>::RATING.speed.0));
     let pretensioned = Scenario {
         name: "pretensioned start, half a load more, lowering",
         plant: hanging(LoadProgram::table(&[(4.0, 0.0), (5.0, 0.5 * WEIGHT)]), by)?.into(),
         held: WEIGHT,
-        actions: [&RELEASE[..], &[hoisting, (6.0, Action::Setpoint(-Hoist::<10_000>::RATING.speed))]].concat(),
+        actions: [&RELEASE[..], &[hoisting, (6.0, Action::Setpoint(-Hoist::<10_000>::RATING.speed.0))]].concat(),
         duration: 12.0,
         counted: true,
         marks: vec![(0.2, "brake opens"), (4.0, "half a load more"), (6.0, "reversal")],
@@ -101,7 +101,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         actions: vec![
             (0.0, Action::Setpoint(CREEP)),
             (0.1, Action::Release),
-            (4.0, Action::Setpoint(Hoist::<10_000>::RATING.speed)),
+            (4.0, Action::Setpoint(Hoist::<10_000>::RATING.speed.0)),
         ],
         duration: 8.0,
         counted: true,
@@ -127,7 +127,7 @@ pub fn machine() -> Result<Machine, PlantError> {
 /// # Errors
 /// A figure of the plant that is out of range.
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
-    let up = Hoist::<10_000>::RATING.speed;
+    let up = Hoist::<10_000>::RATING.speed.0;
     let lift = lift("a lift", by, None, &[(0.2, up), (3.0, -0.5 * up)], 8.0)?;
     Ok(with(vec![lift]))
 }
@@ -138,7 +138,7 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
 /// # Errors
 /// A figure of the plant that is out of range.
 pub fn test_lifts(by: &Departure) -> Result<Vec<Scenario>, PlantError> {
-    let up = Hoist::<10_000>::RATING.speed;
+    let up = Hoist::<10_000>::RATING.speed.0;
     let (fall, steps, lasts) = (0.45 * up, 33.5, 3.5);
     let lifts = [(0.2, up), (5.4, -up), (12.1, up), (18.8, -up), (25.5, up)];
     let changes = (0..6).map(|k| (steps + lasts * f64::from(k), if k % 2 == 0 { fall } else { up }));
@@ -155,7 +155,7 @@ pub fn test_lifts(by: &Departure) -> Result<Vec<Scenario>, PlantError> {
 /// # Errors
 /// A figure of the plant that is out of range.
 pub fn whole_height(mass: f64) -> Result<Machine, PlantError> {
-    let up = Hoist::<10_000>::RATING.speed;
+    let up = Hoist::<10_000>::RATING.speed.0;
     let by = Departure { load: mass / MASS, rope: 5.0 / LENGTH, ..Departure::NONE };
     // a ramp at either end has the travel of one second at rated speed
     let stop = 0.2 + 25.0 / (TRAVEL * up);
@@ -214,7 +214,7 @@ fn wound(speeds: &[(f64, f64)], duration: f64) -> Vec<(f64, f64)> {
 
 /// The machine with these runs.
 fn with(scenarios: Vec<Scenario>) -> Machine {
-    let torque_noise = 0.01 * Hoist::<10_000>::RATING.torque;
+    let torque_noise = 0.01 * Hoist::<10_000>::RATING.torque.0;
     Machine {
         name: driveline_firmware::scenes::hoist::SCENE,
         summary: "A 12 t crane hoist, observed and governed from the motor's angle and torque alone: the firmware \
@@ -238,7 +238,7 @@ fn with(scenarios: Vec<Scenario>) -> Machine {
         load_torque: |plant| plant.load_torque(LOAD),
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: Hoist::<10_000>::RATING.speed,
+        rated_speed: Hoist::<10_000>::RATING.speed.0,
         bases: Hoist::<10_000>::BASES,
     }
 }

@@ -52,7 +52,7 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
         .coulomb(BELT)
         .program(LoadProgram::table(&[(6.0, 0.0), (7.0, 0.5 * BELT)]))
         .build()?;
-    let torque_noise = 0.01 * PlanetaryDrive::RATING.torque;
+    let torque_noise = 0.01 * PlanetaryDrive::RATING.torque.0;
     Ok(Machine {
         name: scene::SCENE,
         summary: "A conveyor's drum behind a planetary set: a start under load, more load, a stop.",
@@ -70,8 +70,8 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
             held: 0.0,
             actions: vec![
                 (0.1, Action::Release),
-                (0.1, Action::Setpoint(PlanetaryDrive::RATING.speed)),
-                (9.0, Action::Setpoint(0.3 * PlanetaryDrive::RATING.speed)),
+                (0.1, Action::Setpoint(PlanetaryDrive::RATING.speed.0)),
+                (9.0, Action::Setpoint(0.3 * PlanetaryDrive::RATING.speed.0)),
             ],
             duration: 13.0,
             counted: true,
@@ -85,7 +85,7 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
         load_torque: |plant| plant.load_torque(1),
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: PlanetaryDrive::RATING.speed,
+        rated_speed: PlanetaryDrive::RATING.speed.0,
         bases: PlanetaryDrive::BASES,
     })
 }

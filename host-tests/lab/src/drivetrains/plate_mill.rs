@@ -34,9 +34,9 @@ fn plate(share: f64) -> Source {
 /// # Errors
 /// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
-    let torque_noise = 0.01 * PlateMill::RATING.torque;
+    let torque_noise = 0.01 * PlateMill::RATING.torque.0;
     // friction of the roll bearings: 5 % of rated torque at rated speed
-    let friction = 0.025 * PlateMill::RATING.torque / PlateMill::RATING.speed;
+    let friction = 0.025 * PlateMill::RATING.torque.0 / PlateMill::RATING.speed.0;
     let motion = Train::new()
         .coordinate(Coordinate::new(3.0e4))
         .coordinate(Coordinate::new(3.0e3))
@@ -59,7 +59,7 @@ pub fn machine() -> Result<Machine, PlantError> {
             name: "run-up, a plate",
             plant: Body::train(motion, &[]),
             held: 0.0,
-            actions: vec![(0.1, Action::Release), (0.1, Action::Setpoint(PlateMill::RATING.speed))],
+            actions: vec![(0.1, Action::Release), (0.1, Action::Setpoint(PlateMill::RATING.speed.0))],
             duration: 5.5,
             counted: true,
             marks: vec![(0.1, "run-up"), (3.0, "bite"), (4.2, "out")],
@@ -72,7 +72,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         load_torque: |plant| [UPPER, LOWER].iter().map(|&roll| plant.load_torque(roll)).sum(),
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: PlateMill::RATING.speed,
+        rated_speed: PlateMill::RATING.speed.0,
         bases: PlateMill::BASES,
     })
 }

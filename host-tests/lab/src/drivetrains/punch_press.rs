@@ -23,7 +23,7 @@ const SHAFT: usize = 0;
 const STIFFNESS: f64 = 1.6e7 / (RATIO * RATIO);
 const DAMPING: f64 = 2_100.0 / (RATIO * RATIO);
 /// Friction of bearings and gibs at the crank (N m s/rad): 20 N m at the motor at rated speed, a tenth of rated torque.
-const FRICTION: f64 = 20.0 * RATIO * RATIO / PunchPress::RATING.speed;
+const FRICTION: f64 = 20.0 * RATIO * RATIO / PunchPress::RATING.speed.0;
 /// Torque of the punch at the crank (N m), and the angles before the bottom between which it acts (rad): 800 kN at the
 /// middle of them.
 const PUNCH: f64 = 25_800.0;
@@ -88,7 +88,7 @@ pub fn press(added: f64) -> Result<Body, PlantError> {
 /// # Errors
 /// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
-    let torque_noise = 0.01 * PunchPress::RATING.torque;
+    let torque_noise = 0.01 * PunchPress::RATING.torque.0;
     let [least, most] = PunchPress::CRANKED.extremes();
     let sd = PunchPress::CRANK_OBSERVER.rigid.standard_deviation;
     Ok(Machine {
@@ -111,7 +111,7 @@ pub fn machine() -> Result<Machine, PlantError> {
             name: "run-up, strokes, idling",
             plant: press(0.0)?,
             held: 0.0,
-            actions: vec![(0.1, Action::Release), (0.1, Action::Setpoint(PunchPress::RATING.speed))],
+            actions: vec![(0.1, Action::Release), (0.1, Action::Setpoint(PunchPress::RATING.speed.0))],
             duration: 8.5,
             counted: true,
             marks: vec![(0.1, "run-up"), (SECONDS[0], "plate"), (SECONDS[1], "no plate")],
@@ -124,7 +124,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         load_torque: load,
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: PunchPress::RATING.speed,
+        rated_speed: PunchPress::RATING.speed.0,
         bases: PunchPress::BASES,
     })
 }

@@ -44,8 +44,9 @@ fn emergency_stop(name: &'static str, plant: Body, weight: f64, later: f64) -> S
         vec![(0.0, Action::Brake(0, 2.0 * WEIGHT)), (RELEASE, Action::Release), (RELEASE, Action::Brake(0, 0.0))];
     // The setpoint comes up within four seconds.
     actions.extend(
-        (1..=80)
-            .map(|j| (RELEASE + 0.05 * f64::from(j), Action::Setpoint(SkipWinch::RATING.speed * f64::from(j) / 80.0))),
+        (1..=80).map(|j| {
+            (RELEASE + 0.05 * f64::from(j), Action::Setpoint(SkipWinch::RATING.speed.0 * f64::from(j) / 80.0))
+        }),
     );
     actions.push((STOPPING, Action::Setpoint(0.0)));
     actions.extend(closing(STOPPING + later));
@@ -95,16 +96,16 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     };
     let release = [(0.0, Action::Brake(0, 2.0 * WEIGHT)), (RELEASE, Action::Release), (RELEASE, Action::Brake(0, 0.0))];
     // The inverter goes off, and the brake closes.
-    let lower = (RELEASE, Action::Setpoint(-0.9 * SkipWinch::RATING.speed));
+    let lower = (RELEASE, Action::Setpoint(-0.9 * SkipWinch::RATING.speed.0));
     let emergency = release.into_iter().chain([lower, (EMERGENCY, Action::Trip)]).chain(closing(EMERGENCY)).collect();
     let hoist = vec![
         release[0],
         release[1],
         release[2],
-        (RELEASE, Action::Setpoint(SkipWinch::RATING.speed)),
-        (8.0, Action::Setpoint(0.3 * SkipWinch::RATING.speed)),
+        (RELEASE, Action::Setpoint(SkipWinch::RATING.speed.0)),
+        (8.0, Action::Setpoint(0.3 * SkipWinch::RATING.speed.0)),
     ];
-    let torque_noise = 0.01 * SkipWinch::RATING.torque;
+    let torque_noise = 0.01 * SkipWinch::RATING.torque.0;
     Ok(Machine {
         name: scene::SCENE,
         summary: "A mine's skip hoist: hoisting, and emergencies: the brake alone while it lowers; drive and brake \
@@ -150,7 +151,7 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
         load_torque: |plant| plant.load_torque(2),
         told_brake: Some(0),
         told_friction: 0.0,
-        rated_speed: SkipWinch::RATING.speed,
+        rated_speed: SkipWinch::RATING.speed.0,
         bases: SkipWinch::BASES,
     })
 }

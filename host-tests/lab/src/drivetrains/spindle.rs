@@ -54,7 +54,7 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
         let shaft = Shaft::elastic(stiffness() * by.stiffness).damping(0.3);
         Chain::motor(0.012 * by.motor_inertia).shaft(shaft, 0.004 * by.load_inertia).program(program).build()
     };
-    let run_up = vec![(0.01, Action::Release), (0.01, Action::Setpoint(Spindle::RATING.speed))];
+    let run_up = vec![(0.01, Action::Release), (0.01, Action::Setpoint(Spindle::RATING.speed.0))];
     // The tool hits a shoulder within three milliseconds, cuts less as the feed takes it through a corner, and leaves
     // as fast.
     let face = [(0.8, 0.0), (0.803, CUT), (1.2, CUT), (1.3, 0.6 * CUT), (1.5, 0.6 * CUT), (1.503, 0.0)];
@@ -65,7 +65,7 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     });
     let milling: Vec<(f64, f64)> =
         [(0.8, 0.0), (0.82, CUT), (0.89, CUT)].into_iter().chain(teeth).chain([(1.92, 0.0)]).collect();
-    let torque_noise = 0.01 * Spindle::RATING.torque;
+    let torque_noise = 0.01 * Spindle::RATING.torque.0;
     Ok(Machine {
         name: spindle::SCENE,
         summary: "A machine tool's spindle with a shaft of 800 Hz: run-up and cuts.",
@@ -107,7 +107,7 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
         load_torque: |plant| plant.load_torque(1),
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: Spindle::RATING.speed,
+        rated_speed: Spindle::RATING.speed.0,
         bases: Spindle::BASES,
     })
 }

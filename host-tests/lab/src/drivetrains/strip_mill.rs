@@ -47,7 +47,7 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
             .program(program)
             .build()
     };
-    let torque_noise = 0.01 * StripMill::RATING.torque;
+    let torque_noise = 0.01 * StripMill::RATING.torque.0;
     Ok(Machine {
         name: strip_mill::SCENE,
         summary: "A strip mill's stand of 2.4 MW: strips bite and leave.",
@@ -66,7 +66,7 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
             ]))?
             .into(),
             held: 0.0,
-            actions: vec![(0.1, Action::Release), (0.1, Action::Setpoint(StripMill::RATING.speed))],
+            actions: vec![(0.1, Action::Release), (0.1, Action::Setpoint(StripMill::RATING.speed.0))],
             duration: 9.0,
             counted: true,
             marks: vec![(0.1, "run-up"), (4.0, "bite"), (6.0, "out"), (7.0, "thinner strip")],
@@ -79,7 +79,7 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
         load_torque: |plant| plant.load_torque(ROLLS),
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: StripMill::RATING.speed,
+        rated_speed: StripMill::RATING.speed.0,
         bases: StripMill::BASES,
     })
 }

@@ -61,7 +61,7 @@ pub fn train() -> Train {
 /// # Errors
 /// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
-    let torque_noise = 0.01 * VibratingScreen::RATING.torque;
+    let torque_noise = 0.01 * VibratingScreen::RATING.torque.0;
     Ok(Machine {
         name: scene::SCENE,
         summary: "A dual-mass vibrating screen of 30 kW: up through its resonances, more charge, and down again.",
@@ -79,8 +79,8 @@ pub fn machine() -> Result<Machine, PlantError> {
             held: 0.0,
             actions: vec![
                 (0.1, Action::Release),
-                (0.1, Action::Setpoint(VibratingScreen::RATING.speed)),
-                (10.0, Action::Setpoint(0.05 * VibratingScreen::RATING.speed)),
+                (0.1, Action::Setpoint(VibratingScreen::RATING.speed.0)),
+                (10.0, Action::Setpoint(0.05 * VibratingScreen::RATING.speed.0)),
             ],
             duration: 15.0,
             counted: true,
@@ -94,7 +94,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         load_torque: |plant| plant.load_torque(EXCITER),
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: VibratingScreen::RATING.speed,
+        rated_speed: VibratingScreen::RATING.speed.0,
         bases: VibratingScreen::BASES,
     })
 }

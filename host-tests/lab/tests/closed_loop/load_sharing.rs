@@ -13,7 +13,7 @@ use driveline_firmware::scenes::converter_ring::{ConverterRing, MOTORS};
 use driveline_firmware::scenes::find;
 use driveline_lab::drivetrains::converter_ring::{HEAVY, Pinion, REVERSAL, pinion, with};
 
-const RATED_SPEED: f64 = ConverterRing::RATING.speed;
+const RATED_SPEED: f64 = ConverterRing::RATING.speed.0;
 
 /// Torques of the pinions' shafts (N m).
 fn pinions(plant: &Body) -> [f64; MOTORS] {

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use driveline::configure::Rating;
 use driveline::design::{Actuator, Spread, Tolerance};
 use driveline::machine::{Damper, Losses};
 use serde::Serialize;
@@ -54,6 +55,8 @@ pub struct Project {
     /// Its rated torque (N m).
     rated_torque: String,
     speed: String,
+    /// Whether the motor is faster than most.
+    fast: bool,
     /// Ticks a second.
     pub rate_hz: u32,
     torque_accuracy: String,
@@ -162,6 +165,7 @@ impl Project {
         let plan = Plan::of(&damped);
         let observers = plan.as_ref().map_or_else(|_| Vec::new(), |plan| observers(machine, plan));
         let mut words = words(machine);
+        words.extend(["Speed", "Torque"]);
         let dampers = dampers(&machine.rings(), &mut words).replace('\n', "\n    ");
         if !dampers.is_empty() {
             words.extend(["Inertia", "Match", "Ratio", "Train", "TwoMass"]);
@@ -197,6 +201,7 @@ impl Project {
             torque: float(machine.limits.torque),
             rated_torque: float(machine.limits.rated_torque),
             speed: float(machine.limits.speed),
+            fast: !machine.rating().is_within(machine.chain.masses()[0], Rating::PERIPHERAL_SPEED),
             rate_hz: machine.control.rate_hz,
             torque_accuracy: float(machine.disturbance.torque_accuracy),
             load_torque_step: float(machine.disturbance.load_torque_step),

@@ -41,7 +41,7 @@ fn the_critical_speeds_of_the_screen_are_those_of_its_springs() {
         close(range[1], (1.0 + USUAL_MARGIN) * critical, 1e-12);
     }
     // The torsional one, motor against exciter, lies above twice the speed, where the box's push is.
-    assert!(omega.last().unwrap() > &(2.0 * 1.2 * VibratingScreen::RATING.speed), "{omega:?}");
+    assert!(omega.last().unwrap() > &(2.0 * 1.2 * VibratingScreen::RATING.speed.0), "{omega:?}");
 }
 
 /// Peak travel of the box against the frame below the speed that a run reaches, and how long it dwelt in the upper
@@ -77,7 +77,7 @@ fn the_screen_passes_its_resonance_quickly() {
 /// the torque asks for, with an error on every second tooth more than without, and do not part.
 #[test]
 fn the_teeth_excite_the_gear_drive() {
-    let torque = 1.2 * GearDrive::RATING.torque;
+    let torque = 1.2 * GearDrive::RATING.torque.0;
     // what is left for the mesh when the motor's own inertia has been brought up
     let machine = GearDrive::TWO_MASS;
     let through = torque * (1.0 - 0.4 / (machine.motor_inertia + machine.load_inertia));
@@ -94,7 +94,7 @@ fn the_teeth_excite_the_gear_drive() {
         println!("error {error}: mesh force {:.0} to {:.0} N, dynamic factor {factor:.2}", force.least, force.peak);
         // they meet and part while the step of the torque rings down; from then on they keep contact
         assert!(motion.events().iter().all(|event| event.time < 0.1), "{:?}", motion.events());
-        assert!(force.least > 0.0 && motion.speed(0) > GearDrive::RATING.speed, "{force:?}");
+        assert!(force.least > 0.0 && motion.speed(0) > GearDrive::RATING.speed.0, "{force:?}");
         factors.push(factor);
     }
     assert!(factors[1] > 1.1 && factors[0] > factors[1], "{factors:?}");

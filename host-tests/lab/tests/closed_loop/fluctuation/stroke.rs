@@ -113,11 +113,11 @@ fn rides_and_advises(number: &str, permissible: f64) {
         torque(riding),
         delta(riding).0
     );
-    assert!(high > 0.99 * PunchPress::RATING.torque_limit && rough > 0.5 * mean, "{number}: {rough} {high}");
+    assert!(high > 0.99 * PunchPress::RATING.torque_limit.0 && rough > 0.5 * mean, "{number}: {rough} {high}");
     // A twentieth: what the last of the settling leaves, the segments' steps and the observer's noise.
     assert!(smooth < 0.05 * mean && low < 1.1 * mean, "{number}: {mean} {smooth} {low}");
     // It governs nevertheless: nine strokes after the first one with plate the mean speed is the setpoint within 1 %.
-    assert!((speed(riding) / PunchPress::RATING.speed - 1.0).abs() < 0.01, "{number}: {}", speed(riding));
+    assert!((speed(riding) / PunchPress::RATING.speed.0 - 1.0).abs() < 0.01, "{number}: {}", speed(riding));
 
     let (true_delta, middle) = delta(riding);
     let [mean, measured, swing, missing] = told[..] else { panic!("{told:?}") };
@@ -156,7 +156,7 @@ fn the_same_in_fixed_point() {
 fn the_loop_over_the_stroke_has_margins() {
     let (inertia, governor) = (PunchPress::TWO_MASS.total_inertia(), over_stroke());
     for share in [0.8, 1.0] {
-        let stroke = 14.0 * TAU / (share * PunchPress::RATING.speed);
+        let stroke = 14.0 * TAU / (share * PunchPress::RATING.speed.0);
         let mut nearest = f64::INFINITY;
         let mut w = 0.01;
         while w < 200.0 {

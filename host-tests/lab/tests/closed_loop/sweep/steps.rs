@@ -122,7 +122,7 @@ fn the_hoists_recordings_are_understood() {
     let design = Hoist::<1_000>::OBSERVER;
     for trace in machine.scenarios.iter().map(record) {
         let run = recorded(&trace, &units);
-        let compared = comparisons(&design, &Hoist::<10_000>::GEAR, &run, Hoist::<10_000>::RATING.speed).unwrap();
+        let compared = comparisons(&design, &Hoist::<10_000>::GEAR, &run, Hoist::<10_000>::RATING.speed.0).unwrap();
         let peak = trace.moments.iter().map(|moment| moment.truth[0].abs()).fold(0.0, f64::max);
         let squares = trace.moments.iter().map(|moment| ((moment.estimate[0] - moment.truth[0]) / peak).powi(2));
         let drive = (squares.sum::<f64>() / trace.moments.len() as f64).sqrt();

@@ -2,7 +2,7 @@
 
 use driveline::configure::{Machine, Rating};
 use driveline::design::{Disturbance, Encoder};
-use driveline::machine::{Chain, Damping, Diameter, Efficiency, Falls, Inertia, LinearDamping, Mass, Ratio, Stiffness};
+use driveline::machine::{Chain, Damping, Diameter, Efficiency, Falls, Inertia, LinearDamping, Mass, Ratio, Speed, Stiffness, Torque};
 
 /// The machine, from the motor to the load. The other constants of `Machine` follow from these; name one to override
 /// it.
@@ -17,7 +17,8 @@ impl Machine for Hoist {
         .damped_rope(Falls(2), Stiffness(2900000.0), LinearDamping(3600.0))
         .lifted(Mass(12000.0));
     /// Rated torque, largest speed and largest torque of the file.
-    const RATING: Rating = Rating { torque: 675.0, speed: 155.0, torque_limit: 1350.0 };
+    const RATING: Rating =
+        Rating { torque: Torque(675.0), speed: Speed(155.0), torque_limit: Torque(1350.0) };
     const ENCODER: Encoder = Encoder::lines(2048);
     const RATE_HZ: u32 = 10000;
     const DISTURBANCE: Disturbance =

@@ -35,7 +35,7 @@ impl<const WHAT: u32> Machine for Stated<WHAT> {
     const ENCODER: Encoder = match WHAT {
         0 => Encoder::lines(COUNTS / 4),
         1 => Encoder::lines(COUNTS / 4).interpolation(PERIODS, ONE_PERCENT),
-        _ => Encoder::lines(COUNTS / 4).jitter(ONE_PERCENT * Spindle::PERIOD, Spindle::RATING.speed),
+        _ => Encoder::lines(COUNTS / 4).jitter(ONE_PERCENT * Spindle::PERIOD, Spindle::RATING.speed.0),
     };
     const RATE_HZ: u32 = Spindle::RATE_HZ;
     const TUNING: SpeedLoopTuning = Spindle::TUNING;

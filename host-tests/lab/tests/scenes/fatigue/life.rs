@@ -22,7 +22,7 @@ fn swung() -> (Box<dyn Scene>, Vec<f32>) {
     let torques = (0..120_000_u32).map(|tick| {
         // the motor stands; its torque is the sample's, which alone makes the observer's shaft torque move
         let swing = (62.8 * f64::from(tick) * StripMill::PERIOD).sin() * f64::from(tick) / 120_000.0;
-        let torque = (2.0 * StripMill::RATING.torque * swing) as f32;
+        let torque = (2.0 * StripMill::RATING.torque.0 * swing) as f32;
         let input = Input { torque: torque.to_bits(), flags: Input::RELEASED, ..Input::default() };
         f32::from_bits(scene.exchange(&input).shaft_torque)
     });
@@ -61,7 +61,7 @@ fn the_damage_is_that_of_the_whole_count_and_survives_a_power_cut() {
     let expected = [
         (DAMAGE, cycles + halves),
         (REMAINING, 1.0 - cycles - halves),
-        (AMPLIFICATION, f64::from(largest) / StripMill::RATING.torque),
+        (AMPLIFICATION, f64::from(largest) / StripMill::RATING.torque.0),
         (TIME_ABOVE, counts.time_above(StripMill::OVERLOAD)),
     ];
     let mut again = find(NAME).unwrap().start();

@@ -86,7 +86,7 @@ impl Case {
             let sample = Sample {
                 angle: (turns.rem_euclid(1.0) * 4_294_967_296.0) as u64 as u32,
                 // Noise of 1 % of rated torque.
-                torque: (applied + 0.01 * M::RATING.torque * noise.normal()) as f32,
+                torque: (applied + 0.01 * M::RATING.torque.0 * noise.normal()) as f32,
                 setpoint: self.setpoints[usize::from(2 * tick >= ticks)] as f32,
             };
             applied = f64::from(drive.tick(config, &sample).torque);
@@ -95,7 +95,7 @@ impl Case {
             let load = load * ((tick as f64 * M::PERIOD - from) / over).clamp(0.0, 1.0);
             for _ in 0..8 {
                 // Friction rises within a thousandth of rated speed: no sticking, which takes no torque off the shaft.
-                let rising = speeds[masses - 1] / (1e-3 * M::RATING.speed);
+                let rising = speeds[masses - 1] / (1e-3 * M::RATING.speed.0);
                 torques[masses] = load + self.friction * rising.clamp(-1.0, 1.0);
                 for (j, [stiffness, damping]) in self.shafts.iter().enumerate() {
                     let play = if j + 2 == masses { 0.5 * self.gap } else { 0.0 };
@@ -150,7 +150,7 @@ fn crane(within: &mut dyn FnMut(f64) -> f64) -> Case {
         shafts: vec![[mass * 9.80665 / rope * square, 0.0]],
         gap: 0.0,
         friction: 0.0,
-        setpoints: [CraneTravel::RATING.speed; 2],
+        setpoints: [CraneTravel::RATING.speed.0; 2],
         torque_gain: within(0.03),
         load: [0.0, 1.0, 0.0],
         duration: 20.0,
@@ -161,13 +161,13 @@ fn crane(within: &mut dyn FnMut(f64) -> f64) -> Case {
 /// A strip bites within 50 ms; motor and rolls within 10 %, the spindles' stiffness within 20 %, torque constant within
 /// 3 %.
 fn stand(within: &mut dyn FnMut(f64) -> f64) -> Case {
-    let rolling = 0.6 * StripMill::RATING.torque;
+    let rolling = 0.6 * StripMill::RATING.torque.0;
     Case {
         inertias: vec![3000.0 * within(0.1), 300.0, 400.0, 2500.0 * within(0.1)],
         shafts: vec![[6.0e7, 1.0e4], [5.0e7, 1.0e4], [6.0e6 * within(0.2), 4.0e3]],
         gap: 0.0,
         friction: 0.0,
-        setpoints: [StripMill::RATING.speed; 2],
+        setpoints: [StripMill::RATING.speed.0; 2],
         torque_gain: within(0.03),
         load: [4.0, 0.05, rolling],
         duration: 5.5,
@@ -178,12 +178,12 @@ fn stand(within: &mut dyn FnMut(f64) -> f64) -> Case {
 /// A reversal as fast as the motor can; inertias within 10 %, stiffness within 20 %, the gap within
 /// 30 %, torque constant within 3 %. The whole peak counts.
 fn reversal(within: &mut dyn FnMut(f64) -> f64) -> Case {
-    let half = 0.5 * BloomingMill::RATING.speed;
+    let half = 0.5 * BloomingMill::RATING.speed.0;
     Case {
         inertias: vec![1.1e5 * within(0.1), 1.0e4 * within(0.1), 2.2e4 * within(0.1)],
         shafts: vec![[1.2e9 * within(0.2), 3.0e5], [2.2e8 * within(0.2), 1.0e5]],
         gap: GAP * within(0.3),
-        friction: 0.05 * BloomingMill::RATING.torque,
+        friction: 0.05 * BloomingMill::RATING.torque.0,
         setpoints: [half, -half],
         torque_gain: within(0.03),
         load: [0.0, 1.0, 0.0],

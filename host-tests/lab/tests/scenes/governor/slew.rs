@@ -53,7 +53,7 @@ fn slewed<N: Number>(
 #[test]
 fn the_rope_s_dynamic_factor_is_the_allowed_one() {
     const SLEW: f64 = SkipWinch::TWO_MASS.slew_for_factor(Torque(CHANGE), ALLOWED);
-    const LIMIT: f64 = SkipWinch::RATING.torque_limit;
+    const LIMIT: f64 = SkipWinch::RATING.torque_limit.0;
     const FLOAT: SlewConfig<f32, SymmetricLimitConfig<f32>> = SlewConfig::<f32, _>::new(
         SLEW,
         SymmetricLimitConfig::<f32>::new(LIMIT, Bases::SI),

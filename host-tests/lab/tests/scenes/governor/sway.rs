@@ -70,12 +70,13 @@ fn stop<D: Ticks>(config: &ConfigOf<D>, crane: &Crane, after: f64) -> [f64; 2] {
     let ticks = ((11.0 + after + 6.7) * 1e3) as u32;
     for tick in 0..ticks {
         let time = f64::from(tick) * 1e-3;
-        let setpoint = if (0.1..11.0).contains(&time) { 0.5 * CraneTravel::RATING.speed } else { 0.0 };
+        let setpoint = if (0.1..11.0).contains(&time) { 0.5 * CraneTravel::RATING.speed.0 } else { 0.0 };
         let angle = (plant.angle(0) / TAU * 4096.0).floor() / 4096.0;
         let angle = (angle.rem_euclid(1.0) * 4_294_967_296.0) as u64 as u32;
         // 1 % of rated torque, uniform with that standard deviation
         noise = noise.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        let random = (f64::from(noise >> 8) / 16_777_216.0 - 0.5) * 12.0_f64.sqrt() * 0.01 * CraneTravel::RATING.torque;
+        let random =
+            (f64::from(noise >> 8) / 16_777_216.0 - 0.5) * 12.0_f64.sqrt() * 0.01 * CraneTravel::RATING.torque.0;
         let command = drive.next(config, angle, reported + random, setpoint);
         plant.set_torque(0, command * crane.torque);
         plant.advance(1e-3);

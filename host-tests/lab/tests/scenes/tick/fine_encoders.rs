@@ -6,7 +6,7 @@ use core::f64::consts::TAU;
 use cargo_driveline::replay::OfReal;
 use driveline::configure::{Machine as _, Rating};
 use driveline::design::{Encoder, Rate, RigidDesign, SpeedLoopTuning, StepChoice, TwoMassDesign};
-use driveline::machine::{Chain, Damping, Inertia, Match, Stiffness};
+use driveline::machine::{Chain, Damping, Inertia, Match, Speed, Stiffness, Torque};
 use driveline::number::{Fixed, Number};
 use driveline::observer::{
     GearedConfig, GearedObserver, Observer, RigidConfig, RigidObserver, SemiImplicitConfig, SemiImplicitObserver,
@@ -80,7 +80,7 @@ impl Case {
         let (rating, period) = (&self.rating, self.period());
         let disturbance = rating.disturbance();
         let step = disturbance.load_torque_variance(period).unwrap().sqrt();
-        let (mut noise, mut load_torque, mut applied) = (Noise::new(1), 0.4 * rating.torque, 0.0);
+        let (mut noise, mut load_torque, mut applied) = (Noise::new(1), 0.4 * rating.torque.0, 0.0);
         let counts = f64::from(1_u32 << self.bits);
         (0..(2.0 / period) as u32)
             .map(|k| {
@@ -90,10 +90,10 @@ impl Case {
                 let truth = [plant.shaft_torque(0), plant.speed(1), load_torque];
                 let tick = Tick { angle: (count << (32 - self.bits)) as u32, torque: applied, truth };
                 let mean = (motor * plant.speed(0) + load * plant.speed(1)) / (motor + load);
-                let setpoint = 0.9 * rating.speed * (f64::from(k) * period / 0.8).min(1.0);
+                let setpoint = 0.9 * rating.speed.0 * (f64::from(k) * period / 0.8).min(1.0);
                 // A time constant of 0.1 s.
                 applied = ((setpoint - mean) * (motor + load) / 0.1 + load_torque)
-                    .clamp(-rating.torque_limit, rating.torque_limit);
+                    .clamp(-rating.torque_limit.0, rating.torque_limit.0);
                 plant.advance(applied + disturbance.torque_accuracy * noise.normal(), period);
                 tick
             })
@@ -154,13 +154,13 @@ fn errors<N: Number + OfReal, O: Observer<N>>(ticks: &[Tick], config: &O::Config
 /// A coupling of 48 Hz with the antiresonance of 32 Hz, as in the README.
 fn roll() -> (Chain, Rating) {
     let chain = Chain::motor(Inertia(0.35)).shaft(Stiffness(2.0e4), Damping(0.5)).rotor(Inertia(0.48));
-    (chain, Rating { torque: 300.0, speed: 150.0, torque_limit: 550.0 })
+    (chain, Rating { torque: Torque(300.0), speed: Speed(150.0), torque_limit: Torque(550.0) })
 }
 
 /// A direct drive that turns once in two seconds: its speeds are small against a count in a tick.
 fn slow() -> (Chain, Rating) {
     let chain = Chain::motor(Inertia(20.0)).shaft(Stiffness(1.0e6), Damping(100.0)).rotor(Inertia(60.0));
-    (chain, Rating { torque: 5_000.0, speed: 3.0, torque_limit: 9_000.0 })
+    (chain, Rating { torque: Torque(5_000.0), speed: Speed(3.0), torque_limit: Torque(9_000.0) })
 }
 
 #[test]
