@@ -2,7 +2,7 @@
 //! beyond its limit, whatever the drive is told and by whatever function, and the numbers agree.
 //!
 //! The machine is integrated here, by sub-steps of the two masses' own equations. A sample of the designs;
-//! `DESIGNS=500000` in the environment draws more.
+//! `DESIGNS=500000` in the environment draws more, `FROM=90450` from this one on.
 
 use driveline::design::{Disturbance, Encoder, LoadFeedForward, Rate, SpeedLoopTuning};
 use driveline::drive::{Composition, Config, ConfigOf, Drive, Limits};
@@ -64,7 +64,7 @@ fn draw(random: &mut Random) -> Drawn {
     let period = random.decades(-4.5, -2.0);
     let motor = random.decades(-5.0, 4.0);
     let load = motor * random.decades(-1.5, 2.0);
-    let resonance = random.decades(-2.5, 0.0) / period;
+    let resonance = random.decades(-2.5, -0.2) / period;
     let reduced = motor * load / (motor + load);
     let damping = 2.0 * random.decades(-4.0, -0.5) * reduced * resonance;
     let machine =
@@ -91,7 +91,7 @@ fn draw(random: &mut Random) -> Drawn {
         },
         tuning,
         forward: LoadFeedForward { share: random.between(0.0, 1.0), lag: period * random.decades(0.0, 2.0) },
-        factor: random.between(1.5, 4.0),
+        factor: random.decades(0.2, 1.3),
         torque_limit,
         speed,
         bases: Bases::new(&machine, base, speed * random.one_of([1.0, 1.34, 2.0, 8.0])),
@@ -221,7 +221,7 @@ macro_rules! drives {
                 torque: 1.67 * drawn.torque_limit.min(drawn.bases.torque),
                 setpoint: drawn.speed,
                 innovation: 0.09,
-                frozen_turn: drawn.speed * drawn.period,
+                frozen_turn: 0.09_f64.min(drawn.speed * drawn.period),
                 max_coast: 20,
             };
             let limits = Limits::<N>::try_new(&screening, bases).ok()?;
@@ -301,8 +301,9 @@ fn try_one(seed: u64, tally: &mut Tally) {
     let (Some(single), Some(double)) = (drives!(f32, &drawn, kind), drives!(f64, &drawn, kind)) else { return };
     // the first bases that hold the coefficients, as a machine's own are found
     let Bases { torque, speed, .. } = drawn.bases;
-    let found = (0..6).find_map(|doubling| {
-        drawn.bases = Bases::new(&drawn.machine, torque * f64::from(1 << doubling), speed);
+    let found = (0..18).find_map(|doubling| {
+        let [torque, speed] = [torque * f64::from(1 << (doubling % 6)), speed * f64::from(1 << (doubling / 6))];
+        drawn.bases = Bases::new(&drawn.machine, torque, speed);
         drives!(Fixed, &drawn, kind)
     });
     let Some(fixed) = found else { return };
@@ -373,12 +374,12 @@ fn try_one(seed: u64, tally: &mut Tally) {
 
 #[test]
 fn any_accepted_design_keeps_its_limit_and_the_numbers_agree() {
-    let designs = std::env::var("DESIGNS").ok().and_then(|text| text.parse().ok()).unwrap_or(3_000);
-    let mut tally = Tally::default();
-    for seed in 0..designs {
+    let told = |name, usual| std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(usual);
+    let (from, mut tally) = (told("FROM", 0), Tally::default());
+    for seed in from..from + told("DESIGNS", 2_000) {
         try_one(seed, &mut tally);
     }
     println!("{tally:?}");
-    // Most designs are sound, and most of those run without a flag.
-    assert!(tally.accepted > tally.drawn / 10 && tally.flagged < tally.accepted / 2, "{tally:?}");
+    // A fifth of the designs is sound, and most of those run without a flag.
+    assert!(tally.accepted > tally.drawn / 5 && tally.flagged < tally.accepted / 2, "{tally:?}");
 }

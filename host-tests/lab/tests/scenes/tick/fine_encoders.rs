@@ -21,7 +21,7 @@ use driveline_solver::plant::{self, Shaft};
 /// Efficiency of the gear where there is one, that of the hoist.
 const EFFICIENCY: f64 = 0.94;
 
-/// What fixed point may be worse by than `f32`: it resolves a turn to 2^-25, half a count of 24 bits.
+/// What fixed point may be worse by than `f32`: it resolves a turn to 2^-27, an eighth of a count of 24 bits.
 const WORSE: f64 = 1.1;
 
 /// Ticks a second.
