@@ -30,8 +30,8 @@ impl Train {
         frictionless.frictions.clear();
         frictionless.links.clear();
         frictionless.unbalances.clear();
-        // what stands has no use for the inertia of a mechanism
-        frictionless.coordinates.iter_mut().for_each(|c| (c.crank, c.pins, c.law) = (None, None, None));
+        // what stands has no use for the inertia of a mechanism, nor for the friction of a gear
+        frictionless.coordinates.iter_mut().for_each(|c| (c.crank, c.pins, c.law, c.gear) = (None, None, None, None));
         let n = self.coordinates.len();
         if held >= n {
             return Err(PlantError::Count { name: "locked coordinate", found: held, expected: n });

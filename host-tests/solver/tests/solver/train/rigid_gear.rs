@@ -71,6 +71,19 @@ fn a_gear_that_locks_itself_holds_its_load_and_lowers_it_only_when_driven() {
     }
 }
 
+/// Friction is left out of a pretensioned start: the coupling carries the load, whatever the gear would hold.
+#[test]
+fn a_pretensioned_coupling_carries_the_load() {
+    for back_efficiency in [0.6, -0.05] {
+        let gear = RigidGear { back_efficiency, ..WORM };
+        let load = Coordinate::new(0.3).gear(gear).source(Source::Constant(-80.0));
+        let train = Train::new().coordinate(Coordinate::new(0.1)).coordinate(load).link(Link::shaft(0, 1, 500.0));
+        let motion = train.pretensioned(0).unwrap().build().unwrap();
+        // some roundings of 80/500
+        assert!((motion.elongation(0) - 0.16).abs() < 1e-14, "{back_efficiency}: {}", motion.elongation(0));
+    }
+}
+
 #[test]
 fn a_lifted_load_speeds_up_by_the_referred_inertia() {
     // the coupling turns with the motor after its swing has gone: J = 0.1 + 0.02 + 0.28/0.45

@@ -51,12 +51,14 @@ pub struct Double<'a> {
     /// Links whose teeth follow an angle, and the edge ahead of each.
     teeth: Vec<(usize, i64)>,
     pub settled: bool,
+    /// Peak speed of each coordinate in the run.
+    peak: Vec<f64>,
     /// Whether the discrete state is another one than when this was last cleared.
     pub changed: bool,
 }
 
 impl<'a> Double<'a> {
-    pub fn new(train: &'a Train, held: Vec<f64>, arcs: &[(usize, usize, i64)]) -> Self {
+    pub fn new(train: &'a Train, held: Vec<f64>, arcs: &[(usize, usize, i64)], peak: &[f64]) -> Self {
         let side = train.links.iter().map(|link| {
             // contacts close where they are settled
             f64::from(u8::from(link.is_linear()))
@@ -73,6 +75,7 @@ impl<'a> Double<'a> {
             teeth: super::super::motion::teeth_of(train),
             held,
             settled: false,
+            peak: peak.to_vec(),
             changed: true,
             middle: 0.0,
             train,
@@ -543,7 +546,8 @@ impl Hybrid for Double<'_> {
         for (s, friction) in self.train.frictions.iter().enumerate() {
             let way = self.way[s];
             if way != 0.0 {
-                let size = friction.terms.iter().map(|&(at, c)| (c * self.speed(y, at)).abs()).fold(0.0, f64::max);
+                // what others hold does not slide by a rounding
+                let size = friction.terms.iter().map(|&(at, c)| (c * self.peak[at]).abs()).fold(0.0, f64::max);
                 all.push((way * self.over(y, s), size.max(friction.surface.abs()), Change::Rest(s)));
                 continue;
             }
