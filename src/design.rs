@@ -44,6 +44,7 @@ mod rigid;
 mod robustness;
 mod scheduled_loop;
 mod speed_loop;
+mod speed_response;
 mod step;
 mod tolerance;
 mod torque_curve;

@@ -63,8 +63,8 @@ impl PredictedErrors {
 }
 
 /// An observer as a linear system of five states; one of one mass leaves two of them at zero.
-struct Linear {
-    period: f64,
+pub(super) struct Linear {
+    pub(super) period: f64,
     /// `A = (1 - K H) F`.
     transition: Matrix<5, 5>,
     gains: Matrix<5, 1>,
@@ -77,7 +77,7 @@ struct Linear {
 }
 
 impl Linear {
-    const fn of(observer: LoopObserver<'_>, nominal: &TwoMass) -> Self {
+    pub(super) const fn of(observer: LoopObserver<'_>, nominal: &TwoMass) -> Self {
         let (period, transition, input, gains, outputs, through) = match observer {
             LoopObserver::TwoMass(TwoMassDesign { machine, step, gains, period, .. })
             | LoopObserver::Placed(PlacedObserver { machine, step, gains, period, .. }) => {
@@ -117,8 +117,9 @@ impl Linear {
 }
 
 impl Linear {
-    /// Estimates over the angle (N m/rad, ...) that a motion `z^n` of the measured angle brings about.
-    const fn response(&self, z: Complex) -> [Complex; 3] {
+    /// States over the angle (rad/rad, ...) that a motion `z^n` of the measured angle brings about; not numbers where
+    /// there are none.
+    pub(super) const fn states(&self, z: Complex) -> [Complex; 5] {
         // (z - A) x = z K, states in units of their gains, real and imaginary part one below the other
         let mut system = Matrix::<10, 10>::ZERO;
         let mut right = Matrix::<10, 1>::ZERO;
@@ -138,15 +139,28 @@ impl Linear {
             (right.0[i][0], right.0[i + 5][0]) = (z.0 * gain, z.1 * gain);
             i += 1;
         }
+        let mut states = [(f64::NAN, f64::NAN); 5];
+        if let Some(found) = system.solve(&right) {
+            let mut i = 0;
+            while i < 5 {
+                states[i] = (found.0[i][0] * self.unit(i), found.0[i + 5][0] * self.unit(i));
+                i += 1;
+            }
+        }
+        states
+    }
+
+    /// Estimates over the angle (N m/rad, ...) that such a motion brings about.
+    const fn response(&self, z: Complex) -> [Complex; 3] {
+        let states = self.states(z);
         let mut outputs = [(0.0, 0.0); 3];
-        let Some(states) = system.solve(&right) else { return [(f64::NAN, f64::NAN); 3] };
         let mut k = 0;
         while k < 3 {
             let mut j = 0;
             while j < 5 {
-                let factor = self.outputs.0[k][j] * self.unit(j);
-                outputs[k].0 += factor * states.0[j][0];
-                outputs[k].1 += factor * states.0[j + 5][0];
+                let factor = self.outputs.0[k][j];
+                outputs[k].0 += factor * states[j].0;
+                outputs[k].1 += factor * states[j].1;
                 j += 1;
             }
             k += 1;

@@ -8,8 +8,8 @@
 //! them.
 //!
 //! The speeds are the observer's. A ripple much faster than the observer is smaller in them than it is. Their noise
-//! makes the largest value too large and the least too small by two or three of its standard deviations:
-//! [`Reading::with_noise`] corrects them. Where delta is not far above that, take a [`super::Waveform`].
+//! makes the largest value too large and the least too small by two or three of its standard deviations.
+//! [`Reading::with_errors`] corrects the noise and gives each delta a deviation by noise and lag. Where delta is not far above that, take a [`super::Waveform`].
 
 mod peak;
 mod reading;
@@ -17,7 +17,7 @@ mod reading;
 use core::f64::consts::{PI, TAU};
 
 pub use peak::Ranked;
-pub use reading::{Extreme, Fluctuations, Reading};
+pub use reading::{Extreme, Fluctuations, Reading, SpeedErrors};
 
 use super::position::{Position, RADIANS, Way};
 use super::{CycleConfig, Edge, Fluctuation};

@@ -8,7 +8,7 @@ use super::position::RADIANS;
 use super::quality::{Quality, Unusable};
 use super::series::{GRID, Order, Series, circle};
 use super::{Bin, Edge, Summed, WaveformConfig};
-use crate::math::{sin_cos, sqrt};
+use crate::math::{nearest, sin_cos, sqrt};
 
 pub use super::series::MAX_ORDER;
 
@@ -113,10 +113,10 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
             order.sin *= sign;
         }
         let (mut coefficient, mut beyond) = (0.0, 0.0);
+        let orders = (fitted - highest).max(1) as f64;
         for (n, order) in (1_u32..).zip(&beyond_highest).take(fitted).skip(highest) {
             let square = order.cos * order.cos + order.sin * order.sin;
-            // Half of the mean square; and half of that more, as some eight values show it.
-            coefficient += 0.75 * square / (TAU * TAU * f64::from(n * n)) / (fitted - highest) as f64;
+            coefficient += 0.5 * square / (TAU * TAU * f64::from(n * n)) / orders;
             beyond += if n as usize <= highest + 2 { square } else { 0.0 };
         }
         let rise = ramp.slowness * TAU * cycles / ticks / f64::from(self.cycles.max(1));
@@ -131,12 +131,36 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
         let ripple = Ripple::of(slowness, mean, acceleration, config.cycle.angle, highest, self.cycles);
         let mut ripple = Ripple { quality, ..ripple };
         let at = [ripple.motor.max, ripple.motor.min].map(|extreme| extreme.angle * TAU / config.cycle.angle);
-        if fitted == highest {
+        if fitted < highest + 4 {
             (coefficient, beyond) = (left.of_coefficient(left.variance()), left.beyond());
+        } else {
+            // Three deviations by few values are exceeded as seldom as by many (Student's distribution).
+            coefficient *= 1.0 + 2.0 / orders + 8.0 / (orders * orders);
         }
-        let own = coefficient * sensitivity(&slowness, at, highest).square();
+        // Ticks that come back to the same angles have the same rounding in every cycle, which stands in a few orders.
+        let again = ticks / cycles;
+        coefficient *= 1.0 + 3.0 / (1.0 + 0.5 * TAU * cycles * (again - nearest(again)).abs());
+        let beats = Self::beats(again, cycles, highest);
+        let own = coefficient * sensitivity(&slowness, at, highest).square() + beats;
         ripple.motor.deviation = deviation(&slowness, at, [own, coefficient, beyond], highest);
         if ripple.turns_one_way() { Ok(ripple) } else { Err(Unusable::Trend) }
+    }
+
+    /// Variance of a delta by the beats of ticks and bins: a bin's moments leave the third power of the angle, which
+    /// shows as the order by which the ticks to the cycle differ from a multiple of the bins. Ticks that go on within
+    /// the bins from cycle to cycle smooth it. The factor is that of uniform motion, of 20,000 windows.
+    fn beats(ticks: f64, cycles: f64, highest: usize) -> f64 {
+        let (mut sum, each) = (0.0, ticks / BINS as f64);
+        for n in (1_u32..).take(highest).map(f64::from) {
+            let h = n * TAU / BINS as f64;
+            for beside in [-n, n] {
+                let multiple = (ticks + beside) / BINS as f64;
+                let apart = (multiple - nearest(multiple)).abs() * BINS as f64;
+                let amplitude = 0.0073 * h * h * h / (each * each) / (1.0 + 0.5 * TAU * cycles * apart);
+                sum += 2.0 * amplitude * amplitude;
+            }
+        }
+        sum
     }
 
     /// By how much the ticks counted up to the end of each bin differ from the waveform.
@@ -317,7 +341,7 @@ const MANY: f64 = 16.0;
 const SQUARES: u32 = 1 << 18;
 
 /// Orders beyond the highest that show the noise of the others.
-const NEXT: usize = 4;
+const NEXT: usize = 8;
 
 /// How often the trend and the ends are put right anew, by the ripple that is then known; each round is closer by the
 /// ratio of trend and mean.

@@ -2,7 +2,8 @@
 
 use super::convert::{fixed, get, or_stop};
 use super::{Bases, Error, Format};
-use crate::fluctuation::{CycleConfig, CycleMeanConfig, Drivetrain, PLACES, WaveformConfig};
+use crate::design::{LoopObserver, RigidDesign, TwoMassDesign};
+use crate::fluctuation::{CycleConfig, CycleMeanConfig, Drivetrain, PLACES, SpeedErrors, WaveformConfig};
 use crate::machine::TwoMass;
 use crate::number::Fixed;
 
@@ -32,6 +33,21 @@ impl Cycle {
     pub const TURN: Cycle = Cycle { turns: 1, cycles: 1 };
     /// Two turns: a four-stroke engine.
     pub const FOUR_STROKE: Cycle = Cycle { turns: 2, cycles: 1 };
+}
+
+impl SpeedErrors {
+    /// Of an observer of two masses.
+    #[must_use]
+    pub const fn of(design: &TwoMassDesign) -> Self {
+        let noise = [design.standard_deviation.motor_speed, design.standard_deviation.load_speed];
+        SpeedErrors { noise, lag: LoopObserver::TwoMass(design).speed_lag() }
+    }
+
+    /// Of an observer of one mass.
+    #[must_use]
+    pub const fn of_rigid(design: &RigidDesign) -> Self {
+        SpeedErrors { noise: [design.standard_deviation[1]; 2], lag: LoopObserver::Rigid(design).speed_lag() }
+    }
 }
 
 impl Drivetrain {

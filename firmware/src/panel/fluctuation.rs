@@ -6,7 +6,7 @@
 use core::marker::PhantomData;
 
 use driveline::configure::Machine;
-use driveline::fluctuation::{Drivetrain, Extremes, Ranked, Summed, WaveformConfig, Window};
+use driveline::fluctuation::{Drivetrain, Extremes, Ranked, SpeedErrors, Summed, WaveformConfig, Window};
 
 /// Key: keeps the waveform of the last finished turns; answers [`DONE`], or [`NOT_YET`] where there is none.
 pub const TAKE: u32 = 64;
@@ -53,8 +53,8 @@ impl<M> Default for FluctuationPanel<M> {
 }
 
 impl<M: Machine> FluctuationPanel<M> {
-    /// Standard deviations of the estimated speeds of motor and load (rad/s).
-    const NOISE: [f64; 2] = [M::OBSERVER.standard_deviation.motor_speed, M::OBSERVER.standard_deviation.load_speed];
+    /// Noise and lag of the estimated speeds of motor and load.
+    const ERRORS: SpeedErrors = SpeedErrors::of(&M::OBSERVER);
     /// Shaft and masses, for the load side of the waveform.
     const DRIVETRAIN: Drivetrain = Drivetrain::of(&M::TWO_MASS);
 
@@ -109,7 +109,7 @@ impl<M: Machine> FluctuationPanel<M> {
 #[inline(never)]
 pub fn last_turn<M: Machine, N: Ranked>(config: &WaveformConfig, extremes: &Extremes<N>) -> [f32; 5] {
     extremes.reading(&config.cycle).map_or([0.0; 5], |turn| {
-        let turn = turn.with_noise(&config.cycle, FluctuationPanel::<M>::NOISE);
+        let turn = turn.with_errors(&config.cycle, &FluctuationPanel::<M>::ERRORS, HIGHEST);
         let [motor, load] = [turn.motor, turn.load];
         [turn.mean, motor.delta, load.delta, motor.deviation, load.deviation].map(|value| value as f32)
     })
