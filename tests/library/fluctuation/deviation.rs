@@ -11,6 +11,7 @@ use driveline::fluctuation::{
     CycleConfig, Extremes, Fluctuation, Fluctuations, SpeedErrors, ToothErrors, ToothWindow, Waveform, WaveformConfig,
 };
 use driveline::machine::{Damping, Inertia, Rigid, Stiffness, TwoMass};
+use driveline::number::Part;
 use driveline::observer::{Observer, RigidConfig, RigidObserver, TwoMassConfig, TwoMassObserver};
 use driveline::sample::{Estimate, Sample};
 use driveline::settings::{Bases, Cycle, Screening, Teeth, ToothClock};
@@ -170,7 +171,7 @@ fn between(least: f64, largest: f64, noise: &mut Noise) -> f64 {
 /// A window of 64 bins, by an encoder of so many counts at so many ticks to the turn.
 fn by_ticks(wave: &Wave, ticks: f64, counts: f64, [cycles, orders]: [u32; 2], start: f64) -> Option<Fluctuations> {
     let config = WaveformConfig::new::<64>(CycleConfig::new(Cycle::TURN, 1e-4, Bases::SI), cycles);
-    let mut waveform = Waveform::<f64, 64>::default();
+    let mut waveform = Waveform::<64, f64>::default();
     let slowness = wave.grid().map(|speed| 1.0 / speed).sum::<f64>() / 4000.0;
     let (step, mut angle) = (TAU / ticks * slowness / 4.0, start);
     for _ in 0..(ticks * f64::from(cycles + 4)) as u32 {
@@ -213,7 +214,7 @@ fn by_ticks_of_an_encoder() {
     }
 }
 
-type Observed = Drive<f64, TwoMassObserver<f64>, Extremes<f64>>;
+type Observed = Drive<f64, TwoMassObserver, (), Extremes>;
 
 /// Two masses that a cut of a few orders loads, by Runge and Kutta's fourth order.
 struct Cut {
@@ -326,7 +327,11 @@ fn by_extremes_of_an_observer_of_any_speed() {
 
 /// Error of the two speeds over what an observer shows of them, while the motor swings by a tenth of a radian at a
 /// frequency (rad in a tick) and the load by a share of that: by correlation over the last whole periods.
-fn shown<O: Observer<f64>>(observer: O::Config, frequency: f64, share: f64) -> [f64; 2] {
+fn shown<O: Part<f64, State: Observer<f64>>>(
+    observer: <O::State as Observer<f64>>::Config,
+    frequency: f64,
+    share: f64,
+) -> [f64; 2] {
     let screening = Screening { torque: 1e9, setpoint: 1e6, innovation: 3.0, frozen_turn: 3.0, max_coast: 150 };
     let limits = Limits::<f64>::new(&screening, Bases::SI);
     let config = Config { limits, observer, fluctuation: (), governor: (), balancer: () };
@@ -365,8 +370,8 @@ fn the_lag_is_that_of_a_running_observer() {
         let frequency = 0.5 * TAU / f64::from(1 << octave);
         let share = 1.0 - motor * (frequency / 1e-4).powi(2) / stiffness;
         let config = TwoMassConfig::<f64>::new(&design, Bases::SI);
-        let two = shown::<TwoMassObserver<f64>>(config, frequency, share);
-        let one = shown::<RigidObserver<f64>>(RigidConfig::<f64>::new(&rigid, 0.75, Bases::SI), frequency, 1.0);
+        let two = shown::<TwoMassObserver>(config, frequency, share);
+        let one = shown::<RigidObserver>(RigidConfig::<f64>::new(&rigid, 0.75, Bases::SI), frequency, 1.0);
         for (name, errors, found) in [("two", &of_two, two), ("one", &of_one, one)] {
             for (lag, found) in errors.lag.iter().zip(found) {
                 // the table is in f32, the angle in 2^-32 turns; below the bandwidth the lag rises with the frequency

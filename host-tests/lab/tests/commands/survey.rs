@@ -4,9 +4,7 @@ use driveline_lab::backlash::{Comparison, Row, Stretch};
 use driveline_lab::cases::Case;
 use driveline_lab::commissioning::{Target, Verdict, named, on_host, verdict};
 use driveline_lab::drivetrains::SCENES;
-use driveline_lab::survey::{
-    Aim, Factor, Failure, Run, SceneFigures, Survey, Wanted, adapters, jobs,
-};
+use driveline_lab::survey::{Aim, Factor, Failure, Run, SceneFigures, Survey, Wanted, adapters, jobs};
 use driveline_lab::survey::{survey_markdown, survey_page, survey_table};
 use driveline_report::chart::front;
 use proptest::prelude::*;
