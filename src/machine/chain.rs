@@ -33,6 +33,13 @@ pub struct Losses {
     pub behind: [f64; 2],
 }
 
+/// Efficiencies of two gears in a row, while the motor drives and while the load does. Where the second one locks, the
+/// motor has to drive the first.
+pub(super) const fn in_a_row(first: [f64; 2], second: [f64; 2]) -> [f64; 2] {
+    let back = if second[1] > 0.0 { first[1] * second[1] } else { second[1] / first[0] };
+    [first[0] * second[0], back]
+}
+
 impl Shaft {
     pub(crate) const NONE: Self =
         Self { stiffness: 0.0, damping: 0.0, gap: 0.0, efficiency: 1.0, back_efficiency: 1.0 };
@@ -193,9 +200,9 @@ impl Chain {
             return self.refuse(Error::GearEfficiency);
         }
         self.ratio *= ratio.0;
-        self.efficiency *= efficiency.0;
-        self.back_efficiency *= back.0;
-        self.waiting = [self.waiting[0] * efficiency.0, self.waiting[1] * back.0];
+        [self.efficiency, self.back_efficiency] =
+            in_a_row([self.efficiency, self.back_efficiency], [efficiency.0, back.0]);
+        self.waiting = in_a_row(self.waiting, [efficiency.0, back.0]);
         if self.ends_in_shaft() { self.settle() } else { self }
     }
 
@@ -206,7 +213,7 @@ impl Chain {
 
     /// Gives the efficiencies that wait to the end of the last shaft.
     pub(super) const fn settle(mut self) -> Self {
-        self.ending = [self.ending[0] * self.waiting[0], self.ending[1] * self.waiting[1]];
+        self.ending = in_a_row(self.ending, self.waiting);
         self.waiting = [1.0; 2];
         self
     }
@@ -215,8 +222,7 @@ impl Chain {
     pub(super) const fn close(mut self) -> Self {
         if self.count > 1 {
             let last = &mut self.shaft[self.count - 2];
-            last.efficiency *= self.ending[0];
-            last.back_efficiency *= self.ending[1];
+            [last.efficiency, last.back_efficiency] = in_a_row([last.efficiency, last.back_efficiency], self.ending);
             self.ending = [1.0; 2];
         }
         self
@@ -242,11 +248,11 @@ impl Chain {
         while j + 1 < self.count {
             let Shaft { efficiency, back_efficiency, .. } = self.shaft[j];
             let side = if j <= softest { &mut before } else { &mut behind };
-            *side = [side[0] * efficiency, side[1] * back_efficiency];
+            *side = in_a_row(*side, [efficiency, back_efficiency]);
             j += 1;
         }
         let end = if self.count > 1 { &mut behind } else { &mut before };
-        *end = [end[0] * self.ending[0] * self.waiting[0], end[1] * self.ending[1] * self.waiting[1]];
+        *end = in_a_row(*end, in_a_row(self.ending, self.waiting));
         Losses { before, behind }
     }
 

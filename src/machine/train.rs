@@ -19,7 +19,7 @@
 //! shafts by Householder's reflections. Frequencies are the singular values of `R B / sqrt(J)`. `inv(J) K` is never
 //! formed; without loops R is diagonal, and the accuracy is that of a chain [Demmel and Veselić 1992].
 
-use super::chain::{CAPACITY, Chain, Shaft};
+use super::chain::{CAPACITY, Chain, Shaft, in_a_row};
 use super::error::not_negative;
 use super::error::positive;
 use super::modes::{Columns, Modes, SHAFTS};
@@ -264,7 +264,7 @@ impl Train {
         let mut node = if mass < self.count { mass } else { 0 };
         while node != 0 {
             let Joint { from, shaft, .. } = self.joint[node - 1];
-            both = [both[0] * shaft.efficiency, both[1] * shaft.back_efficiency];
+            both = in_a_row([shaft.efficiency, shaft.back_efficiency], both);
             node = from;
         }
         both

@@ -67,7 +67,7 @@ impl Gear {
 pub struct LoadGear {
     /// Efficiency while the motor drives, above 0 and at most 1.
     pub efficiency: f64,
-    /// Efficiency while the load drives, above 0 and at most 1.
+    /// Efficiency while the load drives, at most 1. At zero or below the gear locks itself, and is never driven.
     pub back_efficiency: f64,
     /// Inertia on the load side of the shaft (kg m2).
     pub inertia: f64,
@@ -77,14 +77,14 @@ impl LoadGear {
     /// Friction per shaft torque while the motor and while the load drives, and the stiction gain (N m s/rad).
     const fn losses(&self, period: f64) -> Result<[f64; 3], Error> {
         let LoadGear { efficiency, back_efficiency, inertia } = *self;
-        if !(efficiency > 0.0 && efficiency <= 1.0 && back_efficiency > 0.0 && back_efficiency <= 1.0) {
+        if !(efficiency > 0.0 && efficiency <= 1.0 && back_efficiency.is_finite() && back_efficiency <= 1.0) {
             return Err(Error::Value(EFFICIENCY));
         }
         let stiction_gain = 0.5 * inertia / period;
         if !(stiction_gain as f32 > 0.0 && (stiction_gain as f32).is_finite() && period > 0.0) {
             return Err(Error::Value(LOAD));
         }
-        let driven = 1.0 / back_efficiency - 1.0;
+        let driven = if back_efficiency > 0.0 { 1.0 / back_efficiency - 1.0 } else { 1.0 - efficiency };
         if !(driven as f32).is_finite() {
             return Err(Error::Value(EFFICIENCY));
         }
@@ -232,6 +232,19 @@ mod tests {
             assert_eq!(Gear { deadband, ..GEAR }.losses(0.01).is_ok(), is_right, "{deadband}");
         }
         assert!(Gear { efficiency: 1.0, ..GEAR }.losses(0.01).is_ok());
+    }
+
+    /// A gear that the load does not drive loses as while the motor drives.
+    #[test]
+    fn a_gear_that_locks_is_taken_behind_the_shaft() {
+        let gear = |back_efficiency| LoadGear { efficiency: 0.75, back_efficiency, inertia: 2.0 };
+        // 1/0.5 - 1; 1 - 0.75
+        for (back, driven) in [(0.5, 1.0), (0.0, 0.25), (-0.3, 0.25)] {
+            assert_eq!(gear(back).losses(0.01), Ok([0.25, driven, 100.0]), "{back}");
+        }
+        for back in [1.1, f64::NAN, f64::NEG_INFINITY] {
+            assert!(gear(back).losses(0.01).is_err(), "{back}");
+        }
     }
 
     /// In fixed point the gear must be brought to rest: 16 times 2 over 4 is 8, the inertia over 1/16 s.

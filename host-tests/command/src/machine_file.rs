@@ -124,7 +124,6 @@ pub use engine::Engine;
 pub use excitation::{Excitation, Running};
 pub use quantity::Quantity;
 pub use read::{LARGEST, not_toml, parse, parse_for_modes, read, text};
-pub use referred::ShaftLosses;
 pub use rotor::{Balancing, RotorFile, parse_rotor, read_rotor};
 pub use source::{Source, printable};
 pub use table::{Item, Table};

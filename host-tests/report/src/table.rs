@@ -53,21 +53,24 @@ impl fmt::Display for Table {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let width = |text: &str| text.chars().count();
         let columns = self.rows.iter().map(Vec::len).chain([self.headings.len()]).max().unwrap_or(0);
-        let text = |row: &[String], column: usize| row.get(column).cloned().unwrap_or_default();
-        let widths: Vec<usize> = (0..columns)
+        // its width, and whether it is of numbers
+        let described: Vec<(usize, bool)> = (0..columns)
             .map(|column| {
                 let all = self.rows.iter().chain([&self.headings]);
-                all.map(|row| width(&text(row, column))).max().unwrap_or(0)
+                let widest = all.filter_map(|row| row.get(column)).map(|text| width(text)).max();
+                (widest.unwrap_or(0), self.numeric(column))
             })
             .collect();
-        let rule: Vec<String> = widths.iter().map(|&width| "─".repeat(width)).collect();
+        let rule: Vec<String> = described.iter().map(|&(width, _)| "─".repeat(width)).collect();
         for row in [&self.headings, &rule].into_iter().chain(&self.rows) {
             let mut line = String::from(" ");
-            for (column, &wide) in widths.iter().enumerate() {
-                let cell = text(row, column);
-                let gap = " ".repeat(wide - width(&cell));
-                let (before, after) = if self.numeric(column) { (gap.as_str(), "") } else { ("", gap.as_str()) };
-                line.push_str(&format!(" {before}{cell}{after} "));
+            for (column, &(wide, numeric)) in described.iter().enumerate() {
+                let cell = row.get(column).map_or("", String::as_str);
+                let gap = " ".repeat(wide - width(cell));
+                let (before, after) = if numeric { (gap.as_str(), "") } else { ("", gap.as_str()) };
+                for part in [" ", before, cell, after, " "] {
+                    line.push_str(part);
+                }
             }
             writeln!(f, "{}", line.trim_end())?;
         }

@@ -70,6 +70,18 @@ fn a_worm_gives_back_less() {
     assert_eq!((worm.efficiency(), worm.back_efficiency()), (0.75, 0.6));
 }
 
+/// The second worm takes a fifth of the load torque to be lowered, and the motor drives the first one then.
+#[test]
+fn two_worms_that_lock_do_not_drive_each_other() {
+    let behind = |back| Chain::motor(Inertia(0.1)).worm(Ratio(30.0), Efficiency(0.75), Efficiency(back));
+    let lift = |back| behind(back).worm(Ratio(2.0), Efficiency(0.8), Efficiency(-0.2)).drum(Diameter(0.5));
+    for back in [-0.1, 0.6] {
+        let lift = lift(back).lifted(Mass(1_000.0));
+        close(lift.gravity_torque_lowering(), lift.gravity_torque() * -0.2 / 0.75, ROUNDING);
+        close(lift.losses().before[1], -0.2 / 0.75, ROUNDING);
+    }
+}
+
 #[test]
 fn a_planetary_set_at_its_carrier() {
     let case = case("textbook_examples.json", "S07_planetary_1");

@@ -116,7 +116,10 @@ pub(super) fn dampers(rings: &[(&DamperRing, Damper)], words: &mut BTreeSet<&'st
 pub(super) fn words(machine: &MachineFile) -> BTreeSet<&'static str> {
     let branched = machine.branches.iter().flat_map(|branch| &branch.elements);
     let parts = machine.elements.iter().chain(branched);
-    parts.flat_map(|part| words_of(&part.element)).copied().chain(["Chain"]).collect()
+    // a planetary set that loses more while the load drives is written with a worm behind it
+    let one_way = |element: &Element| matches!(element, Element::Planetary { efficiency, back_efficiency, .. } if efficiency != back_efficiency);
+    let ratio = parts.clone().any(|part| one_way(&part.element)).then_some("Ratio");
+    parts.flat_map(|part| words_of(&part.element)).copied().chain(["Chain"]).chain(ratio).collect()
 }
 
 /// Whether the file names another bandwidth than the usual one.

@@ -36,7 +36,7 @@ pub(super) fn referred(machine: &MachineFile) -> Result<Referred, String> {
     };
     let link = |(s, joint): (usize, driveline::machine::Joint)| {
         let shaft = joint.shaft;
-        let [ahead, back] = losses[s].front;
+        let [ahead, back] = losses[s];
         let bare = Link::shaft(joint.from, joint.to, shaft.stiffness)
             .damping(shaft.damping)
             .gap(shaft.gap)
@@ -60,27 +60,6 @@ impl MachineFile {
     /// does. Behind the last shaft stand [rigid gears](Self::rigid_gears).
     pub fn ropes_and_efficiencies(&self) -> (Vec<bool>, Vec<[f64; 2]>) {
         let carried = self.carried();
-        (carried.rope, carried.losses.iter().map(|losses| losses.front).collect())
-    }
-
-    /// Of each shaft of the chain: whether it is a rope, and the losses of the gears at its ends, for a shaft that loses
-    /// at one end alone.
-    pub fn ropes_and_losses(&self) -> (Vec<bool>, Vec<ShaftLosses>) {
-        let mut carried = self.carried();
-        for s in 0..self.chain.shafts().len() {
-            let ShaftLosses { front, end } = carried.losses[s];
-            if front == ShaftLosses::NONE.front || end == ShaftLosses::NONE.end {
-                continue;
-            }
-            match s.checked_sub(1).map(|before| &mut carried.losses[before]) {
-                // a link has the losses of one end
-                Some(before) if before.front == ShaftLosses::NONE.front => {
-                    before.end = front;
-                    carried.losses[s].front = ShaftLosses::NONE.front;
-                }
-                _ => carried.losses[s] = ShaftLosses { front: both(front, end), end: ShaftLosses::NONE.end },
-            }
-        }
         (carried.rope, carried.losses)
     }
 
@@ -99,7 +78,7 @@ impl MachineFile {
         let shafts = self.joints().len();
         let mut carried = Carried {
             rope: vec![false; shafts],
-            losses: vec![ShaftLosses::NONE; shafts],
+            losses: vec![[1.0; 2]; shafts],
             rigid: Vec::new(),
             without_shaft: None,
         };
@@ -205,33 +184,16 @@ impl MachineFile {
     }
 }
 
-/// Efficiencies of the gears at the ends of a shaft, each while the motor's side drives and while it is driven.
-///
-/// The losses of a gear, a worm or a planetary set belong to the shaft behind it, those of a belt to the belt. Where a
-/// shaft ends in the gear and another one follows, they belong to that shaft. Where none follows, they act at the end of
-/// the last shaft, which then has its own torque in front of them. A shaft with losses at both ends passes those of its
-/// front to the end of the shaft before; where that has some, or is none, both act at the front.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ShaftLosses {
-    /// Between the mass before and the shaft.
-    pub front: [f64; 2],
-    /// Between the shaft and the mass behind.
-    pub end: [f64; 2],
-}
-
-impl ShaftLosses {
-    /// None at either end.
-    pub const NONE: Self = Self { front: [1.0; 2], end: [1.0; 2] };
-}
-
-fn both(one: [f64; 2], other: [f64; 2]) -> [f64; 2] {
-    [one[0] * other[0], one[1] * other[1]]
+/// Efficiencies of two gears in a row, from the motor on. Where the second one locks, the motor has to drive the first.
+fn both(first: [f64; 2], second: [f64; 2]) -> [f64; 2] {
+    [first[0] * second[0], if second[1] > 0.0 { first[1] * second[1] } else { second[1] / first[0] }]
 }
 
 /// What each shaft carries beside its torque.
 struct Carried {
     rope: Vec<bool>,
-    losses: Vec<ShaftLosses>,
+    /// Efficiencies before it, while the motor drives and while the load does.
+    losses: Vec<[f64; 2]>,
     /// Gears with no shaft behind them, and their masses.
     rigid: Vec<(usize, RigidGear)>,
     /// An element whose losses nothing can carry.
@@ -267,18 +229,17 @@ impl Carried {
             let ending = last.checked_sub(1).and_then(at);
             match (behind, ending) {
                 (Some(_), Some(own)) if ends_in_shaft && !is_belt => {
-                    self.losses[own].front = both(self.losses[own].front, losses);
+                    self.losses[own] = both(self.losses[own], losses);
                 }
-                (Some(shaft), _) => self.losses[shaft].front = both(self.losses[shaft].front, losses),
-                (None, Some(own)) if before < whole => {
-                    self.losses[own].end = both(self.losses[own].end, losses);
+                (Some(shaft), _) => self.losses[shaft] = both(self.losses[shaft], losses),
+                (None, Some(_)) if before < whole => {
                     let [efficiency, back_efficiency] = losses;
                     match self.rigid.iter_mut().find(|(mass, _)| *mass == on(last)) {
                         None => self.rigid.push((on(last), RigidGear { front: before, efficiency, back_efficiency })),
                         // the inertia between the two counts behind both
                         Some((_, gear)) => {
-                            gear.efficiency *= efficiency;
-                            gear.back_efficiency *= back_efficiency;
+                            [gear.efficiency, gear.back_efficiency] =
+                                both([gear.efficiency, gear.back_efficiency], losses);
                         }
                     }
                 }

@@ -10,6 +10,7 @@ mod engine;
 mod girder;
 mod identify;
 mod installed;
+mod locks;
 mod machine_file;
 mod motor_wheel;
 mod prime_movers;

@@ -11,7 +11,7 @@ use super::{Part, PartOptions, Source};
 use crate::cli::Failure;
 use crate::cli::controller::Plan;
 use crate::cli::emit::{dampers, encoder, has_tuning, tuning, words, written};
-use crate::machine_file::{DamperRing, MachineFile, ShaftLosses};
+use crate::machine_file::{DamperRing, MachineFile};
 
 /// The number of a drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,12 +112,12 @@ struct Node {
     inertia: String,
     /// Viscous damping against the ground; empty for none.
     viscous: String,
-    /// Of the gear between it and the next shaft, or between the shaft before and it; empty for 1.
+    /// Of the gear between it and the next shaft, or in it; empty for 1.
     efficiency: String,
     /// With the load driving, where it differs.
     back_efficiency: String,
-    /// Whether that gear lies between the shaft before and it.
-    ends: bool,
+    /// Its inertia in front of a gear with no shaft behind (kg m2); empty where there is none.
+    front: String,
     kind: &'static str,
     stiffness: String,
     damping: String,
@@ -145,6 +145,9 @@ struct TwoMasses {
     /// When it ends (s).
     end: u32,
 }
+
+/// Torque that a gear behind the shaft holds where it locks itself, in shaft torques: as good as any.
+const LOCKED: f64 = 1e6;
 
 impl Project {
     /// A drive of the machine in a file, under a name.
@@ -241,7 +244,7 @@ impl Project {
                 stiffness: float(two.stiffness),
                 damping: float(two.damping),
                 before: [1.0 / before[0] - 1.0, 1.0 - before[1]].map(float),
-                behind: [1.0 - behind[0], 1.0 / behind[1] - 1.0].map(float),
+                behind: [1.0 - behind[0], if behind[1] > 0.0 { 1.0 / behind[1] - 1.0 } else { LOCKED }].map(float),
                 steps: 1 + (40.0 / TAU * period * two.resonance()) as u32,
                 // the ramp takes two seconds, or half of the largest torque (`Rating::ramp`)
                 seconds: loaded,
@@ -329,7 +332,8 @@ fn observers(machine: &MachineFile, plan: &Plan) -> Vec<&'static str> {
 
 /// The masses for the full solver.
 fn nodes(machine: &MachineFile, weight: f64) -> Vec<Node> {
-    let (ropes, losses) = machine.ropes_and_losses();
+    let (ropes, losses) = machine.ropes_and_efficiencies();
+    let rigid = machine.rigid_gears();
     let (masses, shafts) = (machine.chain.masses(), machine.chain.shafts());
     let viscous = machine.viscous();
     let unless = |neutral: f64, value: f64| if value == neutral { String::new() } else { format!("{value:?}") };
@@ -340,10 +344,9 @@ fn nodes(machine: &MachineFile, weight: f64) -> Vec<Node> {
             shaft.map_or([1.0, 0.0, 0.0], |shaft| [shaft.stiffness, shaft.damping, shaft.gap]);
         // the weight keeps a gap on its flank
         let flank = if weight > 0.0 { 0.5 * gap } else { 0.0 };
-        let end = before.and_then(|before| losses.get(before)).map_or(ShaftLosses::NONE.end, |shaft| shaft.end);
-        let ends = end != ShaftLosses::NONE.end;
-        let front = losses.get(at).filter(|_| at < shafts.len()).map_or(ShaftLosses::NONE.front, |shaft| shaft.front);
-        let [ahead, back] = if ends { end } else { front };
+        let gear = rigid.iter().find(|(mass, _)| *mass == at).map(|(_, gear)| gear);
+        let before_shaft = losses.get(at).filter(|_| at < shafts.len()).copied().unwrap_or([1.0; 2]);
+        let [ahead, back] = gear.map_or(before_shaft, |gear| [gear.efficiency, gear.back_efficiency]);
         let is_rope = before.and_then(|before| ropes.get(before)).is_some_and(|&rope| rope);
         Node {
             from: before.unwrap_or(0),
@@ -351,7 +354,7 @@ fn nodes(machine: &MachineFile, weight: f64) -> Vec<Node> {
             viscous: unless(0.0, viscous[at]),
             efficiency: unless(1.0, ahead),
             back_efficiency: unless(ahead, back),
-            ends,
+            front: gear.map_or_else(String::new, |gear| format!("{:?}", gear.front)),
             kind: if is_rope { "rope" } else { "elastic" },
             stiffness: format!("{stiffness:?}"),
             damping: format!("{damping:?}"),
@@ -366,7 +369,7 @@ fn nodes(machine: &MachineFile, weight: f64) -> Vec<Node> {
         viscous: String::new(),
         efficiency: String::new(),
         back_efficiency: String::new(),
-        ends: false,
+        front: String::new(),
         kind: "elastic",
         stiffness: format!("{:?}", sized.stiffness),
         damping: format!("{:?}", sized.damping),
