@@ -324,7 +324,7 @@ fn a_third_mass_in_the_band_is_named() {
     let (inertias, shafts) = ([1.0, 1.799_927_265_131_757_7, 1.400_889_353_090_320_8], [18_608.465_1, 8_564.652_27]);
     let mut text = "frequency_Hz,magnitude,phase_deg\n".to_owned();
     for line in 0..200 {
-        let hertz = 0.3 * f64::sqrt(shafts[0]) / 6.28 * 20_f64.powf(f64::from(line) / 199.0);
+        let hertz = 0.047_770_7 * f64::sqrt(shafts[0]) * 20_f64.powf(f64::from(line) / 199.0);
         let s = Complex::new(0.0, TAU * hertz);
         let behind = |load: Complex<f64>, stiffness: f64, inertia: f64| {
             let shaft = stiffness / s + 0.02 * (stiffness * inertia).sqrt();
