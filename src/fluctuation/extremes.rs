@@ -9,7 +9,8 @@
 //!
 //! The speeds are the observer's. A ripple much faster than the observer is smaller in them than it is. Their noise
 //! makes the largest value too large and the least too small by two or three of its standard deviations.
-//! [`Reading::with_errors`] corrects the noise and gives each delta a deviation by noise and lag. Where delta is not far above that, take a [`super::Waveform`].
+//! [`Reading::with_errors`] corrects the noise and gives each delta a deviation by noise and lag. Where delta is not far
+//! above that, take a [`super::Waveform`].
 
 mod peak;
 mod reading;

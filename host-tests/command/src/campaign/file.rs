@@ -3,19 +3,18 @@
 use driveline::design::SpeedLoopDesign;
 use driveline::drive::{Composition, Config, ConfigOf, Drive, Limits};
 use driveline::governor::{SpeedLoop, SpeedLoopConfig};
-use driveline::machine::Losses;
 use driveline::observer::{
     GearedConfig, GearedObserver, LoadGearConfig, LoadGearObserver, RigidConfig, RigidObserver, TwoMassConfig,
     TwoMassObserver,
 };
-use driveline::settings::{Bases, Gear, LoadGear, SpeedLoopSettings};
+use driveline::settings::{Bases, SpeedLoopSettings};
 use driveline_firmware::scene::composed::OverWords;
 use driveline_firmware::scene::{Input, Output, Scene};
 use driveline_solver::plant::train::{Coordinate, Link, RigidGear, Source, Train};
 use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft, Start};
 
 use crate::machine_file::MachineFile;
-use crate::machine_file::designs::Designs;
+use crate::machine_file::designs::{BRANCHES, Designs, NO_SHAFT};
 use crate::machine_file::train::too_stiff;
 use driveline_closed_loop::departure::Departure;
 use driveline_closed_loop::plant::Body;
@@ -74,12 +73,13 @@ impl FileCase {
     /// # Errors
     /// A sentence: it has branches or no shaft, losses that no shaft carries, or cannot be designed.
     pub fn of(machine: MachineFile) -> Result<Self, String> {
+        let refused = |error: String| format!("no drive can be made: {error}");
         if !machine.branches.is_empty() {
-            return Err("a campaign runs a chain of elements; this machine has branches".to_owned());
+            return Err(refused(BRANCHES.to_owned()));
         }
-        let refused = |error: String| format!("no controller can be designed: {error}");
         let damped = machine.with_dampers().map_err(refused)?;
-        let two = damped.two_masses().ok_or("a campaign needs a machine with a shaft; this one is rigid")?;
+        let two = damped.two_masses().ok_or_else(|| refused(NO_SHAFT.to_owned()))?;
+        damped.drive_gears(&two, false).map_err(refused)?;
         let designs = Designs::of(&damped, &two).map_err(|error| refused(error.to_string()))?;
         let cycle = machine.cycle(two.gravity_torque);
         let ramp = machine.limits.speed / designs.ramp;
@@ -195,10 +195,7 @@ impl FileCase {
         let rating = self.machine.rating();
         let limits = Limits::<f32>::try_new(&rating.screening(encoder, rate), Bases::SI).map_err(sentence)?;
         let governor = governor(speed_loop, rating.torque_limit.0, *ramp)?;
-        let Losses { before: [efficiency, _], behind: [driving, driven] } = self.machine.chain.losses();
-        let deadband = 8.0 * encoder.resolution().map_err(|error| error.to_string())?;
-        let gear = Gear { efficiency, inertia: two.motor_inertia, deadband };
-        let behind = LoadGear { efficiency: driving, back_efficiency: driven, inertia: two.load_inertia };
+        let (gear, behind) = self.machine.drive_gears(two, false)?;
         let period = 1.0 / f64::from(self.rate());
         match observer {
             FileObserver::TwoMass => {

@@ -364,6 +364,9 @@ impl Plan {
     /// As [`MachineFile::with_dampers`], and the library's sentence for a machine that cannot be observed or governed.
     pub fn with_dampers(machine: &MachineFile) -> Result<Self, String> {
         let damped = machine.with_dampers()?;
+        if let Some(two) = damped.two_masses() {
+            damped.drive_gears(&two, false)?;
+        }
         let plan = Self::of(&damped).map_err(|error| error.to_string())?;
         let dampers = if machine.dampers.is_empty() { None } else { Damped::of(machine, &damped) };
         Ok(Self { dampers, ..plan })

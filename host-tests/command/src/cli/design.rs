@@ -49,8 +49,7 @@ impl Design {
     /// which the design is printed; of an unstable one no constants.
     pub fn execute(&self) -> Result<(), Failure> {
         let machine = read(&self.file)?;
-        let refused =
-            |error: String| Failure::usage(format!("{}: no controller can be designed: {error}", self.file.display()));
+        let refused = |error: String| Failure::usage(format!("{}: no drive can be made: {error}", self.file.display()));
         let plan = Plan::with_dampers(&machine).map_err(refused)?;
         let speed_loop = plan.speed_loop.as_ref();
         let unstable = speed_loop.and_then(|governor| governor.no_margins.as_ref());

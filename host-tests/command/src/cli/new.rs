@@ -1,6 +1,7 @@
 //! `cargo driveline new`: a firmware crate of the user's own.
 
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -25,7 +26,8 @@ const ROLL: &str = include_str!("../../machines/roll.toml");
 #[command(after_help = "Examples:
   cargo driveline new ../roll && cd ../roll && cargo run
   cargo driveline new ../crane --machine hoist.toml --board qemu-m3
-  cargo driveline new ../fan --board nucleo-g474re --parts fluctuation")]
+  cargo driveline new ../fan --board nucleo-g474re --parts fluctuation
+  cargo driveline new . --update")]
 pub struct New {
     /// The folder; its last part is the crate's name
     name: PathBuf,
@@ -37,10 +39,16 @@ pub struct New {
     board: Board,
     #[command(flatten)]
     parts: PartOptions,
+    /// Write anew what follows from machine.toml in a project of this command; a file that changes is kept as FILE.old
+    #[arg(long, conflicts_with = "machine")]
+    update: bool,
     /// Print {folder, files, board, number, observer}
     #[arg(long)]
     pub json: bool,
 }
+
+/// What follows from the machine in a project.
+const DERIVED: [&str; 4] = ["src/lib.rs", "src/machine.rs", "src/simulated.rs", "tests/closed_loop.rs"];
 
 /// A board that a project begins with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -96,24 +104,42 @@ struct Values {
     qemu: &'static str,
     tool: String,
     run: &'static str,
+    /// Options of this command that write the project again.
+    options: String,
 }
 
 impl New {
+    /// The options that a project depends on beside its machine.
+    fn options(&self) -> String {
+        let name = |value: clap::builder::PossibleValue| value.get_name().to_owned();
+        let board = self.board.to_possible_value().map(name).unwrap_or_default();
+        let parts: Vec<String> =
+            self.parts.parts.iter().filter_map(|part| part.to_possible_value().map(name)).collect();
+        let parts = if parts.is_empty() { String::new() } else { format!(" --parts {}", parts.join(",")) };
+        let limit = self.parts.vibration_limit.map_or_else(String::new, |limit| format!(" --vibration-limit {limit}"));
+        format!("--board {board}{parts}{limit}")
+    }
+
     /// Installs the compiler's target, then writes the folder.
     ///
     /// # Errors
     /// A wrong name, a folder that is not empty or lies in a clone, a machine that no drive can be made of. Nothing is
-    /// left then.
+    /// left then. An update whose copies would be written over.
     pub fn execute(&self) -> Result<(), Failure> {
-        let name = self.name.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        let known = if self.update { Some(package(&self.name)?) } else { None };
+        let of_folder = || self.name.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        let name = known.as_deref().unwrap_or_else(of_folder);
         let (place, source) = match &self.machine {
             Some(file) => text(file, "a machine file")?,
+            None if self.update => text(&self.name.join("machine.toml"), "a machine file")?,
             None => ("roll.toml".to_owned(), ROLL.to_owned()),
         };
         let machine = parse(&place, &source)?;
         let project = Project::of(&machine, name, self.board.number(), &self.parts)?.robust()?;
-        is_free(&self.name)?;
-        is_outside(&self.name)?;
+        if !self.update {
+            is_free(&self.name)?;
+            is_outside(&self.name)?;
+        }
         let facts = self.board.facts();
         install(&Need::to_build([&facts]))?;
         let observer = project.observer().to_owned();
@@ -135,6 +161,7 @@ impl New {
             } else {
                 "flashes the board"
             },
+            options: self.options(),
         };
         let files: Vec<(String, Vec<u8>)> = [
             ("Cargo.toml", "new/Cargo.toml"),
@@ -150,10 +177,25 @@ impl New {
             ("src/simulated.rs", "new/simulated.rs"),
             ("tests/closed_loop.rs", "new/closed_loop.rs"),
         ]
-        .map(|(path, template)| (path.to_owned(), fill(template, &values).into_bytes()))
+        .map(|(path, template)| {
+            let text = fill(template, &values);
+            let text = if path == "src/machine.rs" { marked(&text, &source) } else { text };
+            (path.to_owned(), text.into_bytes())
+        })
         .into_iter()
         .chain([("machine.toml".to_owned(), source.into_bytes()), (".gitignore".to_owned(), b"/target\n".to_vec())])
         .collect();
+        if self.update {
+            let changed = update(&self.name, &files)?;
+            if self.json {
+                return say_json(&json!({ "folder": self.name, "changed": changed, "observer": observer }));
+            }
+            let kept = changed.iter().map(|path| format!("{path}, the former one as {path}.old"));
+            let kept =
+                if changed.is_empty() { "nothing has changed".to_owned() } else { kept.collect::<Vec<_>>().join("\n") };
+            say(format_args!("{observer} with a speed loop\n{kept}"));
+            return Ok(());
+        }
         write(&self.name, &files)?;
         if self.json {
             let names: Vec<&str> = files.iter().map(|(path, _)| path.as_str()).collect();
@@ -172,6 +214,50 @@ impl New {
         ));
         Ok(())
     }
+}
+
+/// The name of a project's package.
+fn package(folder: &Path) -> Result<String, Failure> {
+    let file = folder.join("Cargo.toml");
+    let text = fs::read_to_string(&file).unwrap_or_default();
+    let name = text.lines().find_map(|line| line.strip_prefix("name = \"")?.strip_suffix('"'));
+    name.map(str::to_owned).ok_or_else(|| {
+        let file = file.display();
+        Failure::usage(format!("{file} names no package: --update is for the folder of a project of `new`"))
+    })
+}
+
+/// Mark of a text but for spaces and commas, which a formatter sets: FNV-1a in 64 bits, as `build.rs` has it.
+fn mark(text: &str) -> u64 {
+    let bytes = text.bytes().filter(|byte| !byte.is_ascii_whitespace() && *byte != b',');
+    bytes.fold(0xcbf2_9ce4_8422_2325, |mark, byte| (mark ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+}
+
+/// The machine's constants with the marks of `machine.toml` and of what was made of it.
+fn marked(text: &str, source: &str) -> String {
+    let made = text.find("impl Machine").map_or(text, |at| &text[at..]);
+    let marks = format!("//! Marks for `build.rs`: {:016x} {:016x}", mark(source), mark(made));
+    text.replacen("\n\n", &format!("\n//!\n{marks}\n\n"), 1)
+}
+
+/// Writes what follows from the machine where it differs, and keeps what was there.
+fn update(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<Vec<String>, Failure> {
+    let derived = files.iter().filter(|(path, _)| DERIVED.contains(&path.as_str()));
+    let changed: Vec<_> =
+        derived.filter(|(path, bytes)| fs::read(folder.join(path)).is_ok_and(|old| old != *bytes)).collect();
+    let old = |path: &str| folder.join(format!("{path}.old"));
+    if let Some((path, _)) = changed.iter().find(|(path, _)| old(path).exists()) {
+        let old = old(path);
+        return Err(Failure::usage(format!("{} would be written over; move or remove it", old.display())));
+    }
+    for (path, bytes) in &changed {
+        let file = folder.join(path);
+        let failed = |error: io::Error| Failure::failed(format!("{} cannot be written: {error}", file.display()));
+        // a copy, so that a file is there whatever happens
+        fs::copy(&file, old(path)).map_err(failed)?;
+        fs::write(&file, bytes).map_err(failed)?;
+    }
+    Ok(changed.into_iter().map(|(path, _)| path.clone()).collect())
 }
 
 /// Whether a folder lies outside every clone of driveline: cargo takes the settings of all folders above a project, and

@@ -11,8 +11,7 @@ use std::path::{Path, PathBuf};
 use clap::{ArgGroup, Args};
 use driveline::configure::Rating;
 use driveline::design::{Encoder, Rate};
-use driveline::machine::{Losses, Speed, Torque};
-use driveline::settings::{Gear, LoadGear};
+use driveline::machine::{Speed, Torque};
 use serde_json::json;
 
 use self::fluctuation::FluctuationOptions;
@@ -184,6 +183,9 @@ impl Replay {
         };
         let replayed = self.run(path, &machine, &recording, signals, wheel.as_ref(), tick)?;
         drop(progress);
+        if let Some(error) = replayed.no_fixed {
+            eprintln!("note: there is no drive in fixed point: {error}");
+        }
         if self.json {
             let predicted = replayed.predicted;
             say_json(&json!({
@@ -258,12 +260,12 @@ impl Replay {
             }
         };
         let gear = if machine.chain.efficiency() < 1.0 || machine.chain.back_efficiency() < 1.0 {
-            // the gear sticks within a few counts, as in a campaign
             let count = encoder.resolution().map_err(refused)?;
-            let deadband = 8.0 * wheel.map_or(count, |wheel| 12_f64.sqrt() * wheel.in_a_tick());
-            let Losses { before: [efficiency, _], behind: [driving, driven] } = machine.chain.losses();
-            let behind = LoadGear { efficiency: driving, back_efficiency: driven, inertia: load_inertia };
-            Some((Gear { efficiency, inertia, deadband }, behind, recording.period))
+            let count = wheel.map_or(count, |wheel| 12_f64.sqrt() * wheel.in_a_tick());
+            let gears = machine.gears([inertia, load_inertia], count);
+            let (gear, behind) =
+                gears.map_err(|error| Failure::usage(format!("{}: no drive can be made: {error}", path.display())))?;
+            Some((gear, behind, recording.period))
         } else {
             None
         };

@@ -9,10 +9,18 @@ use driveline::design::{
     Plant, PredictedErrors, Rate, Requirement, RigidDesign, Robustness, SpeedLoopDesign, SpeedLoopTuning, Spread,
     StepChoice, Tolerance, TwoMassDesign,
 };
-use driveline::machine::{Match, Speed, Torque, TwoMass};
+use driveline::machine::{Losses, Match, Speed, Torque, TwoMass};
+use driveline::number::Fixed;
+use driveline::observer::{GearedConfig, LoadGearConfig};
+use driveline::settings::{self, Bases, Gear, LoadGear};
 
 use super::factor::Factor;
 use super::{Duty, MachineFile};
+
+/// Why there is no drive of a machine with branches.
+pub const BRANCHES: &str = "it has branches; leave them out, or write its constants by hand";
+/// Why there is none of a machine without a shaft.
+pub const NO_SHAFT: &str = "it has no shaft, and a drive needs one between motor and load";
 
 /// Designs for a machine of two masses.
 #[derive(Clone, Copy, Debug)]
@@ -230,6 +238,55 @@ impl MachineFile {
     /// The machine as two masses; `None` where it has no shaft.
     pub fn two_masses(&self) -> Option<TwoMass> {
         self.reduce(Match::ResonanceAntiresonance).ok()
+    }
+
+    /// The gears before and behind the shaft as an observer takes them: inertias at the motor's and the load's side (kg
+    /// m2), a count of the encoder (rad).
+    ///
+    /// # Errors
+    /// A gear behind the shaft that locks itself.
+    pub fn gears(&self, [motor, load]: [f64; 2], count: f64) -> Result<(Gear, LoadGear), String> {
+        let Losses { before: [efficiency, _], behind: [driving, driven] } = self.chain.losses();
+        if !(driven > 0.0) {
+            return Err("a gear behind the softest shaft locks itself, and no torque of the load comes through it to \
+                        be observed: a `back_efficiency` above 0 is expected there, or the shaft behind the gear"
+                .to_owned());
+        }
+        // a gear with a loss sticks within a few counts
+        let deadband = if efficiency < 1.0 { 8.0 * count } else { 0.0 };
+        let gear = Gear { efficiency, inertia: motor, deadband };
+        Ok((gear, LoadGear { efficiency: driving, back_efficiency: driven, inertia: load }))
+    }
+
+    /// The same for the file's rate and encoder, as constants of a drive can hold them.
+    ///
+    /// # Errors
+    /// A gear that locks itself, or losses that no constants hold, in fixed point too where the drive has it.
+    pub fn drive_gears(&self, two: &TwoMass, is_fixed: bool) -> Result<(Gear, LoadGear), String> {
+        let (rate, encoder, _) = self.tuning();
+        let count = encoder.resolution().map_err(|error| error.to_string())?;
+        let (gear, behind) = self.gears([two.motor_inertia, two.load_inertia], count)?;
+        let period = rate.period().map_err(|error| error.to_string())?;
+        let is_lossy = [gear.efficiency, behind.efficiency, behind.back_efficiency].map(|share| share != 1.0);
+        // the bases of a drive follow from the gear
+        let bases = Bases { torque: f64::MIN_POSITIVE.sqrt(), ..Bases::SI };
+        let held = || -> Result<(), settings::Error> {
+            if is_lossy[0] {
+                GearedConfig::<f32, _>::try_new((), &gear, period, Bases::SI)?;
+                if is_fixed {
+                    GearedConfig::<Fixed, _>::try_new((), &gear, period, bases)?;
+                }
+            }
+            if is_lossy[1] || is_lossy[2] {
+                LoadGearConfig::<f32, _>::try_new((), &behind, period, Bases::SI)?;
+                if is_fixed {
+                    LoadGearConfig::<Fixed, _>::try_new((), &behind, period, bases)?;
+                }
+            }
+            Ok(())
+        };
+        held().map_err(|error| error.to_string())?;
+        Ok((gear, behind))
     }
 
     /// The tuning in the library's words.

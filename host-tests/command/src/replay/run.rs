@@ -39,6 +39,8 @@ pub struct Replayed {
     pub signals: Signals,
     /// The estimates of each number.
     pub courses: Vec<Course>,
+    /// Why there are none in fixed point.
+    pub no_fixed: Option<Error>,
     /// Deviation of the innovation that the design predicts (rad).
     pub predicted: f64,
     /// Ticks at the start that errors leave out: those before the first angle, then ten time constants of the
@@ -78,7 +80,7 @@ const DOUBLINGS: i32 = 12;
 /// samples (s) where there are some. `tick` counts.
 ///
 /// # Errors
-/// The library's sentence, where constants do not fit.
+/// The library's sentence, where constants do not fit `f32`.
 pub fn replay(
     signals: Signals,
     design: &Design,
@@ -104,33 +106,39 @@ pub fn replay(
             }
         };
     }
-    let (courses, predicted, radius) = match design {
+    let ((single, fixed), predicted, radius): ((Course, Result<Course, Error>), _, _) = match design {
         Design::TwoMass(design) => {
             let of = |torque: f64, speed: f64| Bases::of(design, torque, speed);
             let fits = |bases: &Bases| TwoMassConfig::<Fixed>::try_new(design, *bases).is_ok();
             let bases = fitting(of, fits, most);
             let config = TwoMassConfig::<f32>::try_new(design, Bases::SI)?;
             let one = course!(f32, TwoMassObserver, config, Bases::SI, limits, single);
-            let config = TwoMassConfig::<Fixed>::try_new(design, bases)?;
-            let limits = Limits::<Fixed>::try_new(screening, bases)?;
-            let other = course!(Fixed, TwoMassObserver, config, bases, limits, fixed(&bases));
-            ([one, other], design.innovation, design.spectral_radius)
+            let mut other = || {
+                let config = TwoMassConfig::<Fixed>::try_new(design, bases)?;
+                let limits = Limits::<Fixed>::try_new(screening, bases)?;
+                Ok(course!(Fixed, TwoMassObserver, config, bases, limits, fixed(&bases)))
+            };
+            ((one, other()), design.innovation, design.spectral_radius)
         }
         Design::Rigid(design, share) => {
             let fits = |bases: &Bases| RigidConfig::<Fixed>::try_new(design, *share, *bases).is_ok();
             let bases = fitting(Bases::rigid, fits, most);
             let config = RigidConfig::<f32>::try_new(design, *share, Bases::SI)?;
             let one = course!(f32, RigidObserver, config, Bases::SI, limits, single);
-            let config = RigidConfig::<Fixed>::try_new(design, *share, bases)?;
-            let limits = Limits::<Fixed>::try_new(screening, bases)?;
-            let other = course!(Fixed, RigidObserver, config, bases, limits, fixed(&bases));
-            ([one, other], design.innovation, design.spectral_radius)
+            let mut other = || {
+                let config = RigidConfig::<Fixed>::try_new(design, *share, bases)?;
+                let limits = Limits::<Fixed>::try_new(screening, bases)?;
+                Ok(course!(Fixed, RigidObserver, config, bases, limits, fixed(&bases)))
+            };
+            ((one, other()), design.innovation, design.spectral_radius)
         }
     };
     let slowest = -10.0 / radius.ln();
     let settling = if slowest.is_finite() { (slowest as usize).min(signals.time.len() / 10) } else { 0 };
     let settling = settling + signals.angle.iter().position(Option::is_some).unwrap_or(0);
-    Ok(Replayed { signals, courses: courses.into(), predicted, settling })
+    let no_fixed = fixed.as_ref().err().copied();
+    let courses = [single].into_iter().chain(fixed).collect();
+    Ok(Replayed { signals, courses, no_fixed, predicted, settling })
 }
 
 /// The smallest bases that hold the observer's coefficients, from twice the torque and a third over the speed on. A

@@ -4,10 +4,11 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use cargo_driveline::cli::Plan;
 use cargo_driveline::machine_file::parse;
 
 const SETTINGS: &str = "[encoder]\nlines = 2048\n[control]\nrate_hz = 4000\n[disturbance]\ntorque_accuracy = 4.0\n\
-    load_torque_step = 150.0\nwithin = 10.0\n[limits]\ntorque = 600.0\nspeed = 150.0\n";
+    load_torque_step = 150.0\nwithin = 10.0\n[limits]\ntorque = 600.0\nrated_torque = 300.0\nspeed = 150.0\n";
 
 fn element(kind: &str, rest: &str) -> String {
     format!("[[element]]\nkind = \"{kind}\"\n{rest}\n")
@@ -19,12 +20,15 @@ fn of(word: &str) -> String {
         "M" => element("motor", "inertia = 0.5"),
         "K" => element("shaft", "stiffness = 2.0e4\ndamping = 3.0"),
         "k" => element("shaft", "stiffness = 4.0e6\ndamping = 500.0"),
+        "d" => element("shaft", "stiffness = 2.0e5\ndamping = 30.0\ninertia = 0.4"),
         "r" => element("rotor", "inertia = 0.05"),
+        "q" => element("rotor", "inertia = 3.0"),
         "R" => element("rotor", "inertia = 300.0"),
         "G" => element("gear", "ratio = 20.0\nefficiency = 0.94"),
         "g" => element("gear", "ratio = 20.0"),
         "H" => element("gear", "ratio = 2.0\nefficiency = 0.97"),
         "W" => element("worm", "ratio = 20.0\nefficiency = 0.8\nback_efficiency = 0.7"),
+        "w" => element("worm", "ratio = 40.0\nefficiency = 0.4\nback_efficiency = -0.01"),
         "P" => element(
             "planetary",
             "sun_teeth = 20\nring_teeth = 90\nmodule = 0.004\nplanets = 3\nsun = 0.013\nplanet = 0.0027\n\
@@ -116,25 +120,253 @@ fn losses_on_both_sides_are_all_the_losses() {
     }
 }
 
-/// `new` and `campaign` take what `design` gives a drive; `simulate` runs what has a shaft.
+/// Machines with a lock, a heavy shaft, or a shaft that the rate does not follow.
+const ODD: [&str; 8] = ["M w K R", "M q w K R", "M K w R", "M K r w D L", "M d R", "M K q", "M q K q K q", "M w R"];
+
+/// Changes of a file, and whether it is still a machine.
+const CHANGED: [(&str, &str, bool); 9] = [
+    ("[encoder]\nlines = 2048\n", "", false),
+    ("[limits]", "[bounds]", false),
+    ("rated_torque = 300.0", "rated_torque = 900.0", false),
+    ("inertia = 3.0", "inertia = \"3 kg\"", false),
+    ("stiffness = 2.0e4", "stiffness = \"2e4 N/m\"", false),
+    ("ratio = 2.0", "ratio = 0.0", false),
+    ("lines = 2048", "lines = 40", true),
+    ("rate_hz = 4000", "rate_hz = 40", true),
+    ("[limits]", "[tolerance]\nstiffness = 0.4\n[limits]", true),
+];
+
+/// Why a command makes no drive: what follows these words, without the place of the file.
+fn cause(said: &str) -> Option<String> {
+    let begins = ["no drive can be made: ", "the speed loop has no margins: ", "the speed loop lacks margins: "];
+    let (_, why) = begins.into_iter().find_map(|words| said.split_once(words))?;
+    let end = why.find(['\n', '"']).unwrap_or(why.len());
+    Some(why[..end].trim_end_matches("; see `--help`").to_owned())
+}
+
+/// A recording that every observer takes: a slow swing of an angle.
+fn recording() -> String {
+    let row = |k: u32| format!("{},{},{}\n", f64::from(k) / 4000.0, (0.01 * f64::from(k)).sin(), 1e-3 * f64::from(k));
+    format!("time [s],torque [N m],angle [rad]\n{}", (0..400).map(row).collect::<String>())
+}
+
+/// The first object of what was said; warnings may follow.
+fn json(said: &str) -> serde_json::Value {
+    serde_json::Deserializer::from_str(said).into_iter().next().unwrap().unwrap()
+}
+
+/// Eight commands, each with what it asks of a machine. What they refuse they refuse for the same reason in the same
+/// words; what two of them print is the same figure.
+///
+/// The exports are refused for their place in the end, since compiling takes minutes.
 #[test]
 fn every_command_gives_the_same_answer() {
     let place = tempfile::tempdir().unwrap();
     let folder = place.path();
+    fs::create_dir(folder.join("full")).unwrap();
+    fs::write(folder.join("full/mine"), "kept").unwrap();
+    fs::write(folder.join("swing.csv"), recording()).unwrap();
     let run = "[run]\ntime = 0.02\nstep = 1e-3\n";
-    for (index, words) in WITH_A_SHAFT.iter().chain(&WITHOUT).enumerate() {
-        let has_shaft = !WITHOUT.contains(words);
-        let text = file(words);
-        let machine = parse("m.toml", &text).unwrap();
-        assert_eq!(machine.chain.shafts().is_empty(), !has_shaft, "{words}");
-        assert_eq!(machine.losses_of_no_chain().is_some(), !has_shaft && machine.chain.efficiency() < 1.0, "{words}");
+    let plain = WITH_A_SHAFT.iter().chain(&WITHOUT).chain(&ODD).map(|words| ((*words).to_owned(), file(words)));
+    let base = file("M K q H q");
+    let changed = CHANGED.iter().map(|(from, to, _)| {
+        assert!(base.contains(from), "{from}");
+        (format!("{from:?} {to:?}"), base.replacen(from, to, 1))
+    });
+    let (mut made, mut lacking, mut refused) = (0, 0, 0);
+    for (index, (what, text)) in plain.chain(changed).enumerate() {
         fs::write(folder.join("m.toml"), &text).unwrap();
         fs::write(folder.join("run.toml"), format!("{text}{run}")).unwrap();
+        let project = format!("p{index}");
         let design = answer(folder, &["design", "m.toml", "--json"]);
-        let new = answer(folder, &["new", &format!("p{index}"), "--machine", "m.toml"]);
-        // without a shaft there is no load behind one: a drive needs it
-        assert!(new.0 == (design.0 && has_shaft) || new.1.contains("margin"), "{words}: {} {}", design.1, new.1);
-        let simulated = answer(folder, &["simulate", "run.toml", "--json"]);
-        assert!(simulated.0 || !has_shaft, "{words}: {}", simulated.1);
+        let modes = answer(folder, &["modes", "m.toml", "--json"]);
+        let new = answer(folder, &["new", &project, "--machine", "m.toml"]);
+        let library = answer(folder, &["export", "c", "m.toml", "--core", "host", "--out", "full"]);
+        let fmu = answer(folder, &["export", "fmu", "m.toml", "--out", "none/m.fmu"]);
+        let campaign = answer(folder, &["campaign", "m.toml", "--draw", "0"]);
+        let replay = answer(folder, &["replay", "swing.csv", "--machine", "m.toml", "--json"]);
+        let simulate = answer(folder, &["simulate", "run.toml", "--json"]);
+        let all = [&design, &modes, &new, &library, &fmu, &campaign, &replay, &simulate];
+        let machine = match parse("m.toml", &text) {
+            Ok(machine) => machine,
+            Err(fault) => {
+                let sentence = fault.to_string();
+                let sentence = sentence.lines().next().unwrap().trim_start_matches("m.toml");
+                let quoted = serde_json::to_string(sentence).unwrap();
+                let same = |said: &str| said.contains(sentence) || said.contains(quoted.trim_matches('"'));
+                assert!(all.iter().all(|(taken, said)| !taken && same(said)), "{what}: {sentence}: {all:?}");
+                refused += 1;
+                continue;
+            }
+        };
+        let has_shaft = !machine.chain.shafts().is_empty();
+        assert_eq!(machine.losses_of_no_chain().is_some(), !has_shaft && machine.chain.efficiency() < 1.0, "{what}");
+        assert!(modes.0, "{what}: {}", modes.1);
+        // a drive: the same cause, or none
+        let why = cause(&new.1);
+        assert_eq!(new.0, why.is_none(), "{what}: {}", new.1);
+        for (name, (_, said)) in [("export c", &library), ("export fmu", &fmu)] {
+            assert_eq!(cause(said), why, "{what}: {name}: {said}");
+        }
+        // without a shaft the design is that of one mass, of which there is no drive yet
+        assert_eq!(cause(&design.1), why.clone().filter(|_| has_shaft), "{what}: {}", design.1);
+        // what lacks margins can be drawn, with the same words; what cannot be designed cannot
+        let lacks = why.is_some() && design.1.contains("margins: ");
+        match &why {
+            None => assert!(campaign.0 && !campaign.1.contains("warning: "), "{what}: {}", campaign.1),
+            Some(why) if lacks => {
+                assert!(campaign.0 && campaign.1.contains(why.as_str()), "{what}: {why}: {}", campaign.1);
+            }
+            Some(why) => assert!(cause(&campaign.1).as_ref() == Some(why), "{what}: {why}: {}", campaign.1),
+        }
+        // the observer alone, at the recording's rate
+        let locks = why.as_ref().is_some_and(|why| why.contains("locks itself"));
+        assert!(replay.0 || locks, "{what}: {}", replay.1);
+        assert!(!locks || cause(&replay.1) == why, "{what}: {}", replay.1);
+        // a gear without a mass before it cannot lock in the solver, one without a shaft has no place for its loss
+        assert!(simulate.0 || !has_shaft || what == "M K w R", "{what}: {}", simulate.1);
+        (made, lacking) = (made + u32::from(why.is_none()), lacking + u32::from(lacks));
+        if has_shaft && why.is_none() {
+            same_figures(&what, [&design.1, &modes.1], &folder.join(&project));
+        }
     }
+    // each kind of answer was there
+    println!("{made} drives, {lacking} without margins, {refused} files with a fault");
+    assert!(made > 25 && lacking > 2 && refused == CHANGED.iter().filter(|(.., sound)| !sound).count());
+}
+
+/// Masses, stiffness and resonances of `design` and `modes`; rated torque of a file and of its project.
+fn same_figures(what: &str, said: [&String; 2], project: &Path) {
+    let [design, modes] = said.map(|said| json(said));
+    let shaft = &design["shaft"];
+    let reduced = &modes["reductions"][0];
+    let [motor, load] = [0, 1].map(|side| &design["inertias"][side]);
+    assert_eq!([motor, load], [&reduced["motor_inertia"], &reduced["load_inertia"]], "{what}");
+    assert_eq!([&shaft["stiffness"], &shaft["damping"]], [&reduced["stiffness"], &reduced["damping"]], "{what}");
+    // two masses by hand; the frequencies of the exact modes beside the errors that are printed
+    let value = |value: &serde_json::Value| value.as_f64().unwrap();
+    let held = (value(&shaft["stiffness"]) / value(load)).sqrt();
+    let free = held * (1.0 + value(load) / value(motor)).sqrt();
+    // a few roundings
+    let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-9;
+    assert!(near(value(&shaft["resonance"]), free) && near(value(&shaft["antiresonance"]), held), "{what}: {shaft}");
+    let mode = reduced["mode"].as_u64().unwrap() as usize - 1;
+    let exact = value(&modes["resonances"][mode]["frequency"]) * (1.0 + value(&reduced["resonance_error"]));
+    assert!(near(exact, free), "{what}: {exact} {free}");
+    let rust = fs::read_to_string(project.join("src/machine.rs")).unwrap();
+    assert!(rust.contains("Rating { torque: 300.0, speed: 150.0, torque_limit: 600.0 }"), "{what}: {rust}");
+}
+
+/// The kept mode is the one whose frequency the two masses have, by hand from what is printed.
+#[test]
+fn the_mode_that_is_kept_is_named() {
+    let place = tempfile::tempdir().unwrap();
+    let mut names = std::collections::BTreeSet::new();
+    let branch = "[[branch]]\nat = \"rotor\"\n[[branch.element]]\nkind = \"shaft\"\nstiffness = 5.0\n\
+        [[branch.element]]\nkind = \"rotor\"\ninertia = 1.0e-3\n[encoder]";
+    for (words, branch) in
+        [("M K q", "[encoder]"), ("M K q K q", "[encoder]"), ("M K r G k R", "[encoder]"), ("M K q", branch)]
+    {
+        fs::write(place.path().join("m.toml"), file(words).replace("[encoder]", branch)).unwrap();
+        let (_, said) = answer(place.path(), &["modes", "m.toml", "--json"]);
+        let said = json(&said);
+        let kept = &said["reductions"][1];
+        let value = |name: &str| kept[name].as_f64().unwrap();
+        let free = (value("stiffness") * (1.0 / value("motor_inertia") + 1.0 / value("load_inertia"))).sqrt();
+        let all = said["resonances"].as_array().unwrap().iter().map(|one| one["frequency"].as_f64().unwrap());
+        let mode = all.clone().position(|one| (free / one - 1.0).abs() < 1e-9).unwrap_or_else(|| panic!("{words}"));
+        assert_eq!(kept["by"], format!("mode {} kept exactly", mode + 1), "{words}: {free} of {all:?}");
+        assert!(value("resonance_error").abs() < 1e-9 && kept["mode"] == mode + 1, "{words}: {kept}");
+        names.insert(mode);
+    }
+    // a light branch has the first mode, which the motor hardly sees
+    assert_eq!(names.len(), 2, "{names:?}");
+}
+
+/// A remedy in words, put into the file, leaves nothing lacking. Less of every tolerance is in no machine here.
+#[test]
+fn a_remedy_of_the_design_works() {
+    let remedies = [
+        ("with `bandwidth = ", "` in `[speed_loop]` it has them all"),
+        ("with `within = ", "` in `[disturbance]`, a faster observer, it has them all"),
+    ];
+    let mut tried = [0; 2];
+    let lack = |text: &str| {
+        let plan = Plan::with_dampers(&parse("m.toml", text).unwrap())?;
+        Ok::<_, String>(plan.speed_loop.unwrap().not_robust)
+    };
+    for words in ["M K q", "M q K q", "M B K R", "M q K R", "M q K q K q", "M w K R"] {
+        for (within, wide) in [(10.0, 0.3), (1.0, 0.6), (100.0, 0.2), (0.05, 0.9)] {
+            for bandwidth in [0.05, 0.1, 0.4, 0.8] {
+                let text = |bandwidth: &str, within: &str| {
+                    let settings = file(words).replace("within = 10.0", &format!("within = {within}"));
+                    let tolerance = format!("[tolerance]\nstiffness = {wide:?}\nload_inertia = {wide:?}\n");
+                    format!("{settings}{tolerance}[speed_loop]\nbandwidth = {bandwidth}\n")
+                };
+                let told = [format!("{bandwidth:?}"), format!("{within:?}")];
+                let Ok(Some(why)) = lack(&text(&told[0], &told[1])) else { continue };
+                for (kind, (from, to)) in remedies.iter().enumerate() {
+                    let Some(value) = why.split_once(from).and_then(|(_, rest)| rest.strip_suffix(to)) else {
+                        continue;
+                    };
+                    let mended = if kind == 0 { text(value, &told[1]) } else { text(&told[0], value) };
+                    assert_eq!(lack(&mended), Ok(None), "{words} {told:?}: {why}");
+                    tried[kind] += 1;
+                }
+            }
+        }
+    }
+    println!("tried {tried:?}");
+    assert!(tried.iter().all(|&kind| kind > 0), "{tried:?}");
+}
+
+/// The build script of a project, compiled and run as cargo does.
+fn built(project: &Path) -> String {
+    let script = project.join("script");
+    let arguments = ["--edition", "2024", "build.rs", "-o", "script"];
+    assert!(Command::new("rustc").args(arguments).current_dir(project).status().unwrap().success());
+    let ended = Command::new(script).current_dir(project).output().unwrap();
+    assert!(ended.status.success(), "{}", String::from_utf8_lossy(&ended.stderr));
+    String::from_utf8(ended.stdout).unwrap()
+}
+
+/// A machine file that has changed stops the build until the remedy that is printed has been followed. What was there
+/// is kept.
+#[test]
+fn data_and_constants_of_a_project_do_not_part() {
+    let place = tempfile::tempdir().unwrap();
+    fs::write(place.path().join("m.toml"), file("M K q H q")).unwrap();
+    let parts = ["--board", "qemu-m3", "--parts", "fluctuation"];
+    let made = answer(place.path(), &[&["new", "mine", "--machine", "m.toml"], &parts[..]].concat());
+    assert!(made.0, "{}", made.1);
+    let project = place.path().join("mine");
+    let parted = |said: &str| said.contains("cargo::error=") || said.contains("cargo::warning=");
+    assert!(!parted(&built(&project)));
+    let read = |path: &str| fs::read_to_string(project.join(path)).unwrap();
+    // by a formatter: the same
+    let constants = read("src/machine.rs");
+    fs::write(project.join("src/machine.rs"), constants.replace("    const", "\tconst").replace(" }", ", }")).unwrap();
+    assert!(!parted(&built(&project)));
+    // by hand: a warning
+    fs::write(project.join("src/machine.rs"), constants.replace("speed: 150.0", "speed: 140.0")).unwrap();
+    assert!(built(&project).contains("cargo::warning=src/machine.rs was changed by hand"));
+    fs::write(project.join("src/machine.rs"), &constants).unwrap();
+    // the data: an error, with the remedy
+    fs::write(project.join("machine.toml"), file("M K q H q").replace("speed = 150.0", "speed = 130.0")).unwrap();
+    let said = built(&project);
+    let (_, remedy) = said.split_once("type `cargo driveline ").unwrap_or_else(|| panic!("{said}"));
+    let remedy: Vec<&str> = remedy.split('`').next().unwrap().split(' ').collect();
+    let lib = read("src/lib.rs");
+    let mended = answer(&project, &remedy);
+    assert!(mended.0 && mended.1.contains("src/machine.rs.old"), "{}", mended.1);
+    assert!(!parted(&built(&project)));
+    assert!(read("src/machine.rs").contains("speed: 130.0") && read("src/machine.rs.old") == constants);
+    // nothing else of the options or the name
+    assert_eq!(read("src/lib.rs"), lib);
+    assert!(answer(&project, &remedy).1.contains("nothing has changed"));
+    // a copy is not written over
+    fs::write(project.join("machine.toml"), file("M K q H q")).unwrap();
+    let refused = answer(&project, &remedy);
+    assert!(!refused.0 && refused.1.contains("src/machine.rs.old would be written over"), "{}", refused.1);
+    assert!(read("src/machine.rs").contains("speed: 130.0"));
 }

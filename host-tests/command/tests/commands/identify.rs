@@ -316,6 +316,29 @@ fn a_response_without_a_swing_gives_no_machine() {
     assert!(code == Some(1) && sentence.contains("no machine is identified"), "{code:?}: {sentence}");
 }
 
+/// A third mass in the band, by the impedances of masses and shafts in a row: the fit of two has a swing that grows.
+/// What may be so is named, units and sign last.
+#[test]
+fn a_third_mass_in_the_band_is_named() {
+    use nalgebra::Complex;
+    let (inertias, shafts) = ([1.0, 1.799_927_265_131_757_7, 1.400_889_353_090_320_8], [18_608.465_1, 8_564.652_27]);
+    let mut text = "frequency_Hz,magnitude,phase_deg\n".to_owned();
+    for line in 0..200 {
+        let hertz = 0.047_770_7 * f64::sqrt(shafts[0]) * 20_f64.powf(f64::from(line) / 199.0);
+        let s = Complex::new(0.0, TAU * hertz);
+        let behind = |load: Complex<f64>, stiffness: f64, inertia: f64| {
+            let shaft = stiffness / s + 0.02 * (stiffness * inertia).sqrt();
+            inertia * s + (shaft.inv() + load.inv()).inv()
+        };
+        let all = behind(behind(inertias[2] * s, shafts[1], inertias[1]), shafts[0], inertias[0]).inv();
+        writeln!(text, "{hertz},{},{}", all.norm(), all.arg().to_degrees()).unwrap();
+    }
+    let (code, sentence) = answered(text.as_bytes(), &["--response", "speed"]);
+    let place = |words: &str| sentence.find(words).unwrap_or_else(|| panic!("{words}: {sentence}"));
+    assert!(code == Some(1) && place("a third mass") < place("a rope or shaft that goes slack"), "{sentence}");
+    assert!(place("a rope or shaft that goes slack") < place("check sign and units"), "{sentence}");
+}
+
 #[test]
 fn a_table_has_no_machine_file_and_says_so_first() {
     // the file itself is not read

@@ -142,9 +142,11 @@ impl Told {
             claim("second order, off as a share of the first", (self.orders[1] - second).norm() / first.norm(), 0.01),
             claim("delta of the motor by a turn's extremes, off in deviations", within(0), 3.0),
             claim("delta of the load by a turn's extremes, off in deviations", within(1), 3.0),
-            // noise of a twentieth of the swing, as the designs have it, widens it by a quarter, known to a third
-            claim("deviation of the motor's delta, as a share", self.deviations[2] / turn[0], 0.2),
-            claim("deviation of the load's delta, as a share", self.deviations[3] / turn[1], 0.2),
+            // Noise of a twentieth of the swing, as the designs have it, widens it by a quarter, known to a third. The
+            // observers of both machines lag at the second order by a ninth of the motor's speed at most, and by 0.42
+            // of the load's, of which 0.7 count.
+            claim("deviation of the motor's delta, as a share", self.deviations[2] / turn[0], 0.22),
+            claim("deviation of the load's delta, as a share", self.deviations[3] / turn[1], 0.36),
         ]
     }
 }

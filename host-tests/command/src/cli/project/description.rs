@@ -11,6 +11,7 @@ use super::{Part, PartOptions, Source};
 use crate::cli::Failure;
 use crate::cli::controller::Plan;
 use crate::cli::emit::{dampers, encoder, has_tuning, tuning, words, written};
+use crate::machine_file::designs::{BRANCHES, NO_SHAFT};
 use crate::machine_file::{DamperRing, MachineFile};
 
 /// The number of a drive.
@@ -159,12 +160,13 @@ impl Project {
         let limit = options.vibration_limit()?;
         let refused = |why: &str| Failure::usage(format!("`{}`: no drive can be made: {why}", machine.name));
         if !machine.branches.is_empty() {
-            return Err(refused("it has branches; leave them out, or write its constants by hand"));
+            return Err(refused(BRANCHES));
         }
         let damped = machine.with_dampers().map_err(|error| refused(&error))?;
         let Some(two) = damped.two_masses() else {
-            return Err(refused("it has no shaft, and a drive needs one between motor and load"));
+            return Err(refused(NO_SHAFT));
         };
+        let gears = damped.drive_gears(&two, matches!(number, Number::Fixed)).map(|_| ());
         let plan = Plan::of(&damped);
         let observers = plan.as_ref().map_or_else(|_| Vec::new(), |plan| observers(machine, plan));
         let mut words = words(machine);
@@ -255,9 +257,10 @@ impl Project {
             solver: Source::find().dependency("host-tests/solver"),
             firmware: Source::find().dependency("firmware"),
             hal: Source::find().dependency("hal"),
-            no_drive: match &plan {
-                Err(error) => Some(error.message().to_owned()),
-                Ok(plan) => plan.predicted.as_ref().and_then(|predicted| predicted.lack.clone()),
+            no_drive: match (gears, &plan) {
+                (Err(why), _) => Some(why),
+                (_, Err(error)) => Some(error.message().to_owned()),
+                (_, Ok(plan)) => plan.predicted.as_ref().and_then(|predicted| predicted.lack.clone()),
             }
             .map(|why| refused(&why)),
         })
