@@ -46,11 +46,16 @@ fn a_missing_angle_coasts_and_the_estimates_stand() {
         sound.tick(CONFIG, WANTED);
         let expected = if (from..to).contains(&tick) { Faults::ANGLE_MISSING } else { Faults::NONE };
         assert_eq!(command.faults, expected, "tick {tick}");
-        torque = torque.max(f64::from(command.torque).abs());
+        let shaft = axis.drive().estimate(CONFIG).shaft_torque;
+        torque = torque.max((f64::from(command.torque) - f64::from(shaft)).abs());
         let speed = |axis: &Whole<Scripted>| f64::from(axis.drive().estimate(CONFIG).motor_speed);
-        // the machine here turns steadily whatever the torque: by prediction alone its speed runs off as that torque
-        // would change it, within 10 ms and at the 0.7 kg m2 before the rope
-        assert!((speed(&axis) - speed(&sound)).abs() < torque / 0.7 * 0.01, "tick {tick}");
+        // the machine here turns steadily whatever the torque: by prediction alone its speed runs off as that torque,
+        // less the shaft's, would change it, within 10 ms and at the 0.7 kg m2 before the rope. The angle that is back
+        // corrects it beyond the other side; 10 ms later, six of the fastest time constants, a tenth is left.
+        let bound = torque / 0.7 * 0.01;
+        let off = (speed(&axis) - speed(&sound)).abs();
+        assert!(off < bound || (to..to + 100).contains(&tick), "tick {tick}: {off}");
+        assert!(off < 0.1 * bound || (from..to + 100).contains(&tick), "tick {tick}: {off}");
     }
     assert!(axis.is_enabled());
 }

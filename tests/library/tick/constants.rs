@@ -26,8 +26,12 @@ fn chain() -> Chain {
         .lifted(Mass(black_box(12_000.0)))
 }
 
-fn disturbance() -> Disturbance {
-    Disturbance { torque_accuracy: black_box(7.5), load_torque_step: black_box(300.0), within: black_box(50.0) }
+fn disturbance(rate: Rate) -> Disturbance {
+    Disturbance { torque_accuracy: 7.5, load_torque_step: black_box(300.0), within: black_box(50.0) }.torque_over(
+        black_box(60.0),
+        black_box(1e-4),
+        rate,
+    )
 }
 
 fn settings() -> SpeedLoopSettings {
@@ -45,10 +49,15 @@ fn test<const R: u32>() {
     let reduced: TwoMass = chain().reduce(Match::ResonanceAntiresonance);
     same(&Hoist::<R>::TWO_MASS, &reduced);
     let encoder = Encoder::lines(black_box(2048));
-    let design =
-        reduced.observer(Rate::hz(rate), encoder, disturbance()).with_step(black_box(StepChoice::SemiImplicit));
-    let cut = chain().reduce(Match::TextbookShaft(black_box(1))).observer(Rate::hz(rate), encoder, disturbance());
-    let rigid = chain().rigid().observer(Rate::hz(rate), encoder, disturbance());
+    let design = reduced
+        .observer(Rate::hz(rate), encoder, disturbance(Rate::hz(rate)))
+        .with_step(black_box(StepChoice::SemiImplicit));
+    let cut = chain().reduce(Match::TextbookShaft(black_box(1))).observer(
+        Rate::hz(rate),
+        encoder,
+        disturbance(Rate::hz(rate)),
+    );
+    let rigid = chain().rigid().observer(Rate::hz(rate), encoder, disturbance(Rate::hz(rate)));
     let speed_loop = reduced.speed_loop(Rate::hz(rate), SpeedLoopTuning::USUAL);
     let period = 1.0 / f64::from(rate);
     let share = reduced.load_inertia / (reduced.motor_inertia + reduced.load_inertia);

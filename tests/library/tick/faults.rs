@@ -17,8 +17,8 @@ use super::rig::{RATED_SPEED, REDUCED, TORQUE_LIMIT};
 
 use super::rig::{Rig, Scaled, for_every_variant};
 
-/// Time in which the estimates recover (s).
-const RECOVERY: f64 = 0.45;
+/// Time in which the estimates recover (s): ten times the slowest observer's time constant, 88 ms.
+const RECOVERY: f64 = 0.9;
 
 /// What a float can hold and fixed point cannot.
 trait Bad: Scaled {

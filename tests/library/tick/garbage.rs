@@ -16,8 +16,8 @@ use proptest::prelude::*;
 use super::rig::{Scaled, Seen, check};
 
 /// Time in which the estimates are right again (s): the angle is lost after 20 ms and caught by two angles that differ;
-/// what the restart leaves fades with a time constant below 40 ms, of which ten fit.
-const RECOVERY: f64 = 0.5;
+/// what the restart leaves fades with a time constant of at most 89 ms, of which ten fit.
+const RECOVERY: f64 = 0.9;
 
 /// How each sample is made from random words.
 #[derive(Clone, Copy, Debug)]
