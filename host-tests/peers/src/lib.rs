@@ -25,7 +25,7 @@ pub mod least_squares;
 pub mod library;
 pub mod list;
 /// As the comparison through the gap has it.
-#[path = "../../command/src/backlash/approach/luenberger.rs"]
+#[path = "../../lab/src/backlash/approach/luenberger.rs"]
 pub mod luenberger;
 pub mod model;
 pub mod scene;
