@@ -22,7 +22,7 @@ const DROOP: &str = "the droop must be zero or above and finite, for a rated spe
     half a base of the speed per base of the torque in fixed point";
 const SHARE: &str = "the share of the load torque that is fed forward must be from 0 to 1";
 pub(super) const LIMIT: &str = "the torque limit of the governor must be positive and finite, its least zero or below, \
-    and both within the base of the torque in fixed point, and the limit at least 1/1024 of it: lower the base";
+    and both within the base of the torque in fixed point, and the limit at least 1/8192 of it: lower the base";
 const DRIFT: &str = "the rounding of fixed point would move the integral by more than 1 % of the torque limit in 400 \
     ticks: lower the bandwidth, raise the torque limit, or take f32";
 const MODES: &str = "the speeds of the sequencer must be standstill < underspeed < overspeed, none of them negative, \
@@ -95,9 +95,10 @@ const fn damps_within_base(damping: f64, format: &Format) -> bool {
     format.unit == 1.0 || damping.abs() * twist_rate.min(2.0 * speed) <= torque
 }
 
-/// The base of the torque over the least torque limit in fixed point. The estimates' roundings grow with the base: of
-/// random designs one in 90,000 parts from `f32` by 1 % of its limit in 400 ticks up to 128, more beyond.
-pub(super) const LEAST_LIMIT: f64 = 1024.0;
+/// The base of the torque over the least torque limit in fixed point: as far as the bases of a rating may be doubled.
+/// The estimates' roundings grow with the base: of random designs one in 90,000 parts from `f32` by 1 % of its limit in
+/// 400 ticks up to 128, more beyond.
+pub(super) const LEAST_LIMIT: f64 = 8192.0;
 
 /// Checks that in fixed point the integral moves by at most 1 % of a torque limit in 400 ticks by a turn that is wrong
 /// by half a unit of its factor, at the base of the speed.

@@ -9,7 +9,7 @@ use crate::governor::{DampingLagConfig, SpeedLoopConfig};
 use crate::math::exp_m1;
 
 const TORQUE: &str = "the torque limit of the speed loop must be positive and finite, and at most the base of the \
-    torque in fixed point, and at least 1/1024 of it: lower the base";
+    torque in fixed point, and at least 1/8192 of it: lower the base";
 const RAMP: &str = "the ramp of the speed loop must be positive and finite, and within a tick at most twice the base \
     of the speed in fixed point";
 

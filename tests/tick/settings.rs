@@ -305,7 +305,7 @@ fn the_constants_of_a_speed_loop() {
 }
 
 /// In a tick the integral may take up two units of 2^-32 turn: half a unit of the turn's factor, at the base of the
-/// speed. More than 1 % of the torque limit in 400 ticks is refused, and so is a limit below 1/1024 of the base; each
+/// speed. More than 1 % of the torque limit in 400 ticks is refused, and so is a limit below 1/8192 of the base; each
 /// remedy of the sentences is accepted.
 #[test]
 fn a_loop_whose_roundings_move_the_torque_is_refused() {
@@ -317,14 +317,14 @@ fn a_loop_whose_roundings_move_the_torque_is_refused() {
     };
     let (base, integral) = (BASES.torque, 30_000.0);
     let limit = 100.0 * 400.0 * integral * 2.0 / ANGLE;
-    assert!(limit > base / 1024.0 && tried(1.0, integral, 1.001 * limit, base).is_ok());
+    assert!(limit > base / 8192.0 && tried(1.0, integral, 1.001 * limit, base).is_ok());
     let refused = tried(1.0, integral, 0.999 * limit, base).unwrap_err();
     assert!(refused.contains("1 % of the torque limit in 400 ticks: lower the bandwidth"), "{refused}");
     assert!(tried(0.99, integral, 0.999 * limit, base).is_ok());
-    assert!(tried(1.0, 1.0, 1.001 * base / 1024.0, base).is_ok());
-    let refused = tried(1.0, 1.0, 0.999 * base / 1024.0, base).unwrap_err();
-    assert!(refused.contains("at least 1/1024 of it: lower the base"), "{refused}");
-    assert!(tried(1.0, 1.0, 0.999 * base / 1024.0, 0.99 * base).is_ok());
+    assert!(tried(1.0, 1.0, 1.001 * base / 8192.0, base).is_ok());
+    let refused = tried(1.0, 1.0, 0.999 * base / 8192.0, base).unwrap_err();
+    assert!(refused.contains("at least 1/8192 of it: lower the base"), "{refused}");
+    assert!(tried(1.0, 1.0, 0.999 * base / 8192.0, 0.99 * base).is_ok());
     // a composed governor's limit is at most the base
     let gains = |integral: f64| {
         Gains::<Fixed>::try_of_speed_loop(&speed_loop(4e4, integral, 0.0), 7.0, Bases { speed: 1e-3, ..BASES })
@@ -333,7 +333,7 @@ fn a_loop_whose_roundings_move_the_torque_is_refused() {
     assert!(gains(0.999 * most).is_ok(), "{:?}", gains(0.999 * most));
     assert_eq!(gains(1.001 * most).unwrap_err().message(), tried(1.0, integral, 0.999 * limit, base).unwrap_err());
     for (share, is_right) in [(1.001, true), (0.999, false)] {
-        assert_eq!(SymmetricLimitConfig::<Fixed>::try_new(share * base / 1024.0, BASES).is_ok(), is_right);
+        assert_eq!(SymmetricLimitConfig::<Fixed>::try_new(share * base / 8192.0, BASES).is_ok(), is_right);
     }
 }
 

@@ -262,9 +262,7 @@ impl Replay {
         let gear = if machine.chain.efficiency() < 1.0 || machine.chain.back_efficiency() < 1.0 {
             let count = encoder.resolution().map_err(refused)?;
             let count = wheel.map_or(count, |wheel| 12_f64.sqrt() * wheel.in_a_tick());
-            let gears = machine.gears([inertia, load_inertia], count);
-            let (gear, behind) =
-                gears.map_err(|error| Failure::usage(format!("{}: no drive can be made: {error}", path.display())))?;
+            let (gear, behind) = machine.gears([inertia, load_inertia], count);
             Some((gear, behind, recording.period))
         } else {
             None

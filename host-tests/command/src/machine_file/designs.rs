@@ -242,30 +242,22 @@ impl MachineFile {
 
     /// The gears before and behind the shaft as an observer takes them: inertias at the motor's and the load's side (kg
     /// m2), a count of the encoder (rad).
-    ///
-    /// # Errors
-    /// A gear behind the shaft that locks itself.
-    pub fn gears(&self, [motor, load]: [f64; 2], count: f64) -> Result<(Gear, LoadGear), String> {
+    pub const fn gears(&self, [motor, load]: [f64; 2], count: f64) -> (Gear, LoadGear) {
         let Losses { before: [efficiency, _], behind: [driving, driven] } = self.chain.losses();
-        if !(driven > 0.0) {
-            return Err("a gear behind the softest shaft locks itself, and no torque of the load comes through it to \
-                        be observed: a `back_efficiency` above 0 is expected there, or the shaft behind the gear"
-                .to_owned());
-        }
         // a gear with a loss sticks within a few counts
         let deadband = if efficiency < 1.0 { 8.0 * count } else { 0.0 };
         let gear = Gear { efficiency, inertia: motor, deadband };
-        Ok((gear, LoadGear { efficiency: driving, back_efficiency: driven, inertia: load }))
+        (gear, LoadGear { efficiency: driving, back_efficiency: driven, inertia: load })
     }
 
     /// The same for the file's rate and encoder, as constants of a drive can hold them.
     ///
     /// # Errors
-    /// A gear that locks itself, or losses that no constants hold, in fixed point too where the drive has it.
+    /// Losses that no constants hold, in fixed point too where the drive has it.
     pub fn drive_gears(&self, two: &TwoMass, is_fixed: bool) -> Result<(Gear, LoadGear), String> {
         let (rate, encoder, _) = self.tuning();
         let count = encoder.resolution().map_err(|error| error.to_string())?;
-        let (gear, behind) = self.gears([two.motor_inertia, two.load_inertia], count)?;
+        let (gear, behind) = self.gears([two.motor_inertia, two.load_inertia], count);
         let period = rate.period().map_err(|error| error.to_string())?;
         let is_lossy = [gear.efficiency, behind.efficiency, behind.back_efficiency].map(|share| share != 1.0);
         // the bases of a drive follow from the gear

@@ -213,6 +213,8 @@ fn every_command_gives_the_same_answer() {
         // what lacks margins can be drawn, with the same words; what cannot be designed cannot
         let lacks = why.is_some() && design.1.contains("margins: ");
         match &why {
+            // a gear without a mass before it cannot lock in the solver
+            None if what == "M K w R" => assert!(!campaign.0, "{what}: {}", campaign.1),
             None => assert!(campaign.0 && !campaign.1.contains("warning: "), "{what}: {}", campaign.1),
             Some(why) if lacks => {
                 assert!(campaign.0 && campaign.1.contains(why.as_str()), "{what}: {why}: {}", campaign.1);
@@ -220,9 +222,7 @@ fn every_command_gives_the_same_answer() {
             Some(why) => assert!(cause(&campaign.1).as_ref() == Some(why), "{what}: {why}: {}", campaign.1),
         }
         // the observer alone, at the recording's rate
-        let locks = why.as_ref().is_some_and(|why| why.contains("locks itself"));
-        assert!(replay.0 || locks, "{what}: {}", replay.1);
-        assert!(!locks || cause(&replay.1) == why, "{what}: {}", replay.1);
+        assert!(replay.0, "{what}: {}", replay.1);
         // a gear without a mass before it cannot lock in the solver, one without a shaft has no place for its loss
         assert!(simulate.0 || !has_shaft || what == "M K w R", "{what}: {}", simulate.1);
         (made, lacking) = (made + u32::from(why.is_none()), lacking + u32::from(lacks));
@@ -254,7 +254,10 @@ fn same_figures(what: &str, said: [&String; 2], project: &Path) {
     let exact = value(&modes["resonances"][mode]["frequency"]) * (1.0 + value(&reduced["resonance_error"]));
     assert!(near(exact, free), "{what}: {exact} {free}");
     let rust = fs::read_to_string(project.join("src/machine.rs")).unwrap();
-    assert!(rust.contains("Rating { torque: 300.0, speed: 150.0, torque_limit: 600.0 }"), "{what}: {rust}");
+    assert!(
+        rust.contains("Rating { torque: Torque(300.0), speed: Speed(150.0), torque_limit: Torque(600.0) }"),
+        "{what}: {rust}"
+    );
 }
 
 /// The kept mode is the one whose frequency the two masses have, by hand from what is printed.
@@ -348,7 +351,7 @@ fn data_and_constants_of_a_project_do_not_part() {
     fs::write(project.join("src/machine.rs"), constants.replace("    const", "\tconst").replace(" }", ", }")).unwrap();
     assert!(!parted(&built(&project)));
     // by hand: a warning
-    fs::write(project.join("src/machine.rs"), constants.replace("speed: 150.0", "speed: 140.0")).unwrap();
+    fs::write(project.join("src/machine.rs"), constants.replace("Speed(150.0)", "Speed(140.0)")).unwrap();
     assert!(built(&project).contains("cargo::warning=src/machine.rs was changed by hand"));
     fs::write(project.join("src/machine.rs"), &constants).unwrap();
     // the data: an error, with the remedy
@@ -360,7 +363,7 @@ fn data_and_constants_of_a_project_do_not_part() {
     let mended = answer(&project, &remedy);
     assert!(mended.0 && mended.1.contains("src/machine.rs.old"), "{}", mended.1);
     assert!(!parted(&built(&project)));
-    assert!(read("src/machine.rs").contains("speed: 130.0") && read("src/machine.rs.old") == constants);
+    assert!(read("src/machine.rs").contains("Speed(130.0)") && read("src/machine.rs.old") == constants);
     // nothing else of the options or the name
     assert_eq!(read("src/lib.rs"), lib);
     assert!(answer(&project, &remedy).1.contains("nothing has changed"));
@@ -368,5 +371,5 @@ fn data_and_constants_of_a_project_do_not_part() {
     fs::write(project.join("machine.toml"), file("M K q H q")).unwrap();
     let refused = answer(&project, &remedy);
     assert!(!refused.0 && refused.1.contains("src/machine.rs.old would be written over"), "{}", refused.1);
-    assert!(read("src/machine.rs").contains("speed: 130.0"));
+    assert!(read("src/machine.rs").contains("Speed(130.0)"));
 }
