@@ -74,7 +74,7 @@ pub trait Number:
 
     /// An angle difference, from 2^-32 turns.
     fn from_angle(turned: i32) -> Self;
-    /// An angle difference less a turn, which is in 2^-32 turns for floats and 2^-27 turns in fixed point
+    /// An angle difference less a turn, which is in 2^-32 turns for floats and 2^-26 turns in fixed point
     /// ([`TURN_SHIFT`]).
     fn less_turn(self, turn: Self) -> Self;
     /// An angle difference as the operand of the correction gains.
@@ -96,10 +96,10 @@ pub trait Number:
     fn from_word(word: u32) -> Self;
 }
 
-/// Binary places by which a turn in fixed point is coarser than 2^-32 turns: it has a resolution of 2^5 of them (0.05
+/// Binary places by which a turn in fixed point is coarser than 2^-32 turns: it has a resolution of 2^6 of them (0.09
 /// urad). A turn of the base of the speed in a tick has a factor of 2^-32 in 16 to 20 places, which is its error: finer
 /// turns leave no room for a speed of two turns in a tick, or for a twist of 25 rad.
-pub const TURN_SHIFT: u32 = 5;
+pub const TURN_SHIFT: u32 = 6;
 
 /// Binary places by which an innovation is shifted up before its gains, which then range over +-16 units in the last
 /// place per 2^-32 turn.

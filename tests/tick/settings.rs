@@ -2,7 +2,7 @@
 //! what is accepted, from both sides.
 //!
 //! Fixed point has 2^28 to the base and 2^32 to a coefficient's one. A coefficient that is stated over four is widened
-//! after the product; a gain is shifted up by five places, as an innovation is before its gains, a turn down by five,
+//! after the product; a gain is shifted up by five places, as an innovation is before its gains, a turn down by six,
 //! and the factor from a turn to a speed up by sixteen (`number`).
 
 use core::f64::consts::TAU;
@@ -67,7 +67,7 @@ fn the_constants_of_two_masses() {
     check(si.twist[2], fixed.twist[2], step.g1, forcing / twist / 4.0);
     check(si.twist_rate[2], fixed.twist_rate[2], step.g2, forcing / rate / 4.0);
     check(si.acceleration, fixed.acceleration, PERIOD / 0.83, torque / speed);
-    let turn = 1.0 / (32.0 * UNIT);
+    let turn = 1.0 / (64.0 * UNIT);
     check(si.turn[0], fixed.turn[0], 0.5 * PERIOD * ANGLE, speed * turn);
     check(si.turn[1], fixed.turn[1], load * ANGLE, twist * turn / 4.0);
     let gain = UNIT / 32.0;
@@ -157,7 +157,7 @@ fn the_constants_of_a_semi_implicit_step() {
     // the spring grows by k T v, the damper's part by d v less d v before
     check(si.shaft[0], fixed.shaft[0], 2.0e4 * PERIOD + 0.5, speed / torque);
     check(si.shaft[1], fixed.shaft[1], -0.5, speed / torque);
-    check(si.turn, fixed.turn, PERIOD * ANGLE, speed / (32.0 * UNIT));
+    check(si.turn, fixed.turn, PERIOD * ANGLE, speed / (64.0 * UNIT));
     let gain = UNIT / 32.0;
     check(si.correction[0], fixed.correction[0], 3.0 / ANGLE, gain / speed);
     check(si.correction[1], fixed.correction[1], 1.5 / ANGLE, gain / speed);
@@ -191,7 +191,7 @@ fn the_constants_of_a_rigid_machine() {
         coefficient(fixed, value * per_unit);
     };
     check(si.acceleration, fixed.acceleration, PERIOD / 0.83, torque / speed);
-    check(si.turn, fixed.turn, 0.5 * PERIOD * ANGLE, speed / (32.0 * UNIT));
+    check(si.turn, fixed.turn, 0.5 * PERIOD * ANGLE, speed / (64.0 * UNIT));
     check(si.correction[0], fixed.correction[0], 3.0 / ANGLE, UNIT / 32.0 / speed);
     check(si.correction[1], fixed.correction[1], 40.0 / ANGLE, UNIT / 32.0 / torque);
     check(si.angle_correction, fixed.angle_correction, -0.21, 1.0 / 32.0);
@@ -304,7 +304,7 @@ fn the_constants_of_a_speed_loop() {
     }
 }
 
-/// In a tick the integral may take up two units of 2^-32 turn: half a unit of the turn's factor, at the base of the
+/// In a tick the integral may take up four units of 2^-32 turn: half a unit of the turn's factor, at the base of the
 /// speed. More than 1 % of the torque limit in 400 ticks is refused, and so is a limit below 1/8192 of the base; each
 /// remedy of the sentences is accepted.
 #[test]
@@ -316,7 +316,7 @@ fn a_loop_whose_roundings_move_the_torque_is_refused() {
         SpeedLoopConfig::<Fixed>::try_new(&design, settings, Bases { torque, ..BASES }).map_err(Error::message)
     };
     let (base, integral) = (BASES.torque, 30_000.0);
-    let limit = 100.0 * 400.0 * integral * 2.0 / ANGLE;
+    let limit = 100.0 * 400.0 * integral * 4.0 / ANGLE;
     assert!(limit > base / 8192.0 && tried(1.0, integral, 1.001 * limit, base).is_ok());
     let refused = tried(1.0, integral, 0.999 * limit, base).unwrap_err();
     assert!(refused.contains("1 % of the torque limit in 400 ticks: lower the bandwidth"), "{refused}");
@@ -329,7 +329,7 @@ fn a_loop_whose_roundings_move_the_torque_is_refused() {
     let gains = |integral: f64| {
         Gains::<Fixed>::try_of_speed_loop(&speed_loop(4e4, integral, 0.0), 7.0, Bases { speed: 1e-3, ..BASES })
     };
-    let most = 0.01 * base / 400.0 * ANGLE / 2.0;
+    let most = 0.01 * base / 400.0 * ANGLE / 4.0;
     assert!(gains(0.999 * most).is_ok(), "{:?}", gains(0.999 * most));
     assert_eq!(gains(1.001 * most).unwrap_err().message(), tried(1.0, integral, 0.999 * limit, base).unwrap_err());
     for (share, is_right) in [(1.001, true), (0.999, false)] {
@@ -709,7 +709,7 @@ fn the_constants_of_screening_and_monitor() {
     number(fixed.torque, 400.0 / BASES.torque);
     number(fixed.setpoint, 160.0 / BASES.speed);
     assert_eq!(fixed.innovation.to_bits(), (0.01 * ANGLE) as i32);
-    assert_eq!(fixed.frozen_turn.to_bits(), (0.02 * ANGLE) as i32 >> 5);
+    assert_eq!(fixed.frozen_turn.to_bits(), (0.02 * ANGLE) as i32 >> 6);
     // 2^26 - 1 counts of 2^-32 turn
     for (counts, is_right) in [(67_108_862.5, true), (67_108_863.5, false)] {
         let innovation = Screening { innovation: counts / ANGLE, ..screening };
