@@ -68,8 +68,8 @@ pub struct Text {
     /// The file.
     pub path: PathBuf,
     text: String,
-    /// Where the tuned numbers stand, and what they are.
-    places: Vec<(std::ops::Range<usize>, f64)>,
+    /// Where the tuned numbers stand, what they are, and whether they are whole.
+    places: Vec<(std::ops::Range<usize>, f64, bool)>,
 }
 
 impl Text {
@@ -83,7 +83,7 @@ impl Text {
         let place = |tuned: &Tuned| {
             let found: Vec<_> = numbers.iter().filter(|(names, ..)| names.contains(&tuned.key)).collect();
             match found.as_slice() {
-                [(_, span, value)] => Ok((span.clone(), *value)),
+                [(_, span, value, is_whole)] => Ok((span.clone(), *value, *is_whole)),
                 [] => {
                     let known: Vec<&str> = numbers.iter().map(|(names, ..)| names[0].as_str()).collect();
                     let of = path.display();
@@ -99,28 +99,33 @@ impl Text {
             }
         };
         let places = tuned.iter().map(place).collect::<Result<Vec<_>, _>>()?;
+        let twice = |k: usize| places[..k].iter().any(|(span, ..)| *span == places[k].0);
+        if let Some(k) = (0..places.len()).find(|&k| twice(k)) {
+            return Err(format!("--tune {}: expected it once", tuned[k].key));
+        }
         Ok(Self { path, text, places })
     }
 
     /// The values that stand in the file.
     pub fn values(&self) -> Vec<f64> {
-        self.places.iter().map(|(_, value)| *value).collect()
+        self.places.iter().map(|(_, value, _)| *value).collect()
     }
 
-    /// The text with other values.
+    /// The text with other values; what is whole in the file stays so.
     pub fn with(&self, values: &[f64]) -> String {
-        let mut replaced: Vec<_> = self.places.iter().map(|(span, _)| span.clone()).zip(values).collect();
-        replaced.sort_by_key(|(span, _)| std::cmp::Reverse(span.start));
+        let mut replaced: Vec<_> = self.places.iter().zip(values).collect();
+        replaced.sort_by_key(|((span, ..), _)| std::cmp::Reverse(span.start));
         let mut text = self.text.clone();
-        for (span, value) in replaced {
-            text.replace_range(span, &format!("{value:?}"));
+        for ((span, _, is_whole), value) in replaced {
+            let number = if *is_whole { format!("{value:.0}") } else { format!("{value:?}") };
+            text.replace_range(span.clone(), &number);
         }
         text
     }
 }
 
-/// A number of a file: its names, its place and its value.
-type Number = (Vec<String>, std::ops::Range<usize>, f64);
+/// A number of a file: its names, its place, its value, and whether it is whole.
+type Number = (Vec<String>, std::ops::Range<usize>, f64, bool);
 
 /// The numbers of a file: by section, by the number of an element, and by its label.
 fn numbers(root: &DeTable<'_>) -> Vec<Number> {
@@ -153,7 +158,7 @@ fn gather(found: &mut Vec<Number>, paths: &[String], table: &DeTable<'_>) {
         };
         if let Some(number) = number {
             let names = paths.iter().map(|path| format!("{path}.{}", key.get_ref())).collect();
-            found.push((names, value.span(), number));
+            found.push((names, value.span(), number, matches!(value.get_ref(), DeValue::Integer(_))));
         }
     }
 }
@@ -173,14 +178,20 @@ pub struct Tried {
 /// What is to be least at a point: the geometric mean of the figures that [`SHARE`] of the machines do not exceed.
 ///
 /// # Errors
-/// A sentence: an unstable machine.
+/// A sentence: an unstable machine, or one of several figures that is not positive.
 pub fn objective(figures: &[Figure], outcomes: &[Outcome]) -> Result<f64, String> {
     let unstable = outcomes.iter().filter(|outcome| outcome.is_unstable()).count();
     if unstable > 0 {
         return Err(format!("{unstable} of {} machines are unstable", outcomes.len()));
     }
-    let each = figures.iter().map(|&figure| of_share(figure, outcomes).ln());
-    Ok((each.sum::<f64>() / figures.len() as f64).exp())
+    let each: Vec<f64> = figures.iter().map(|&figure| of_share(figure, outcomes)).collect();
+    match each.as_slice() {
+        [one] => Ok(*one),
+        all if all.iter().all(|value| *value > 0.0) => {
+            Ok((all.iter().map(|value| value.ln()).sum::<f64>() / all.len() as f64).exp())
+        }
+        _ => Err("a figure of several that are least together is not positive".to_owned()),
+    }
 }
 
 /// The value of a figure that [`SHARE`] of the machines do not exceed.
