@@ -1,7 +1,7 @@
 //! A drive on a board: one call a tick, and the reaction to each fault.
 //!
-//! [`Axis`] ties a [`Drive`] to a [`Board`]. A reading is a value that is new and sound, or [`Faults`]; there is no
-//! third answer, so that a failed bus never repeats the last value.
+//! [`Axis`] ties a [`Drive`](crate::drive::Drive) to a [`Board`]. A reading is a value that is new and sound, or
+//! [`Faults`]; there is no third answer, so that a failed bus never repeats the last value.
 //!
 //! # A board
 //! A new board is one file with one type that implements [`Board`]: an angle in, a torque out, the power stage on and
