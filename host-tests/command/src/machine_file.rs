@@ -261,12 +261,20 @@ pub struct Control {
 pub struct Disturbance {
     /// Root mean square of the error of the motor's torque in one tick (N m).
     pub torque_accuracy: f64,
-    /// Noise of the reported torque in one tick (N m, rms), which campaigns and predictions have.
-    pub torque_noise: f64,
+    /// Noise of the reported torque in one tick (N m, rms), which campaigns and predictions have; `torque_accuracy`
+    /// where the file has none.
+    pub torque_noise: Option<f64>,
     /// A change of load torque at the motor (N m) ...
     pub load_torque_step: f64,
     /// ... that may come about within this time (s).
     pub within: f64,
+}
+
+impl Disturbance {
+    /// The noise of the reported torque in one tick (N m, rms).
+    pub fn noise(&self) -> f64 {
+        self.torque_noise.unwrap_or(self.torque_accuracy)
+    }
 }
 
 /// Limits of the machine, at the motor.

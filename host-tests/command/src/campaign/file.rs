@@ -168,7 +168,7 @@ impl FileCase {
             chosen: (if designs.is_rigid() { FileObserver::Rigid } else { FileObserver::TwoMass }.name(), self.rate()),
             scenarios: vec![run],
             encoder: Encoder::new(machine.encoder.lines.saturating_mul(4)),
-            torque_noise: machine.disturbance.torque_noise,
+            torque_noise: machine.disturbance.noise(),
             load: last,
             shaft_torque: SHAFTS[self.shaft.min(SHAFTS.len() - 1)],
             load_torque: LOADS[last.min(LOADS.len() - 1)],

@@ -4,9 +4,6 @@
 //! over all ranges come first; from the best one a compass search [Kolda, Lewis and Torczon 2003] halves its steps
 //! down to a hundredth of the ranges. Ranges are spaced by ratio.
 
-use std::collections::BTreeMap;
-use std::path::PathBuf;
-
 use serde::Serialize;
 use toml::de::{DeTable, DeValue};
 
@@ -65,8 +62,6 @@ impl Tuned {
 /// A machine file whose numbers are replaced where they stand: comments and everything else stay.
 #[derive(Clone, Debug)]
 pub struct Text {
-    /// The file.
-    pub path: PathBuf,
     text: String,
     /// Where the tuned numbers stand, what they are, and whether they are whole.
     places: Vec<(std::ops::Range<usize>, f64, bool)>,
@@ -77,8 +72,8 @@ impl Text {
     ///
     /// # Errors
     /// A sentence: a key that is not in the file or has no number, with those that there are.
-    pub fn of(path: PathBuf, text: String, tuned: &[Tuned]) -> Result<Self, String> {
-        let document = DeTable::parse(&text).map_err(|error| format!("{}: {}", path.display(), error.message()))?;
+    pub fn of(name: &str, text: String, tuned: &[Tuned]) -> Result<Self, String> {
+        let document = DeTable::parse(&text).map_err(|error| format!("{name}: {}", error.message()))?;
         let numbers = numbers(document.get_ref());
         let place = |tuned: &Tuned| {
             let found: Vec<_> = numbers.iter().filter(|(names, ..)| names.contains(&tuned.key)).collect();
@@ -86,9 +81,8 @@ impl Text {
                 [(_, span, value, is_whole)] => Ok((span.clone(), *value, *is_whole)),
                 [] => {
                     let known: Vec<&str> = numbers.iter().map(|(names, ..)| names[0].as_str()).collect();
-                    let of = path.display();
                     Err(format!(
-                        "--tune {}: {of} has no such key with a number; it has {}",
+                        "--tune {}: {name} has no such key with a number; it has {}",
                         tuned.key,
                         known.join(", ")
                     ))
@@ -103,7 +97,7 @@ impl Text {
         if let Some(k) = (0..places.len()).find(|&k| twice(k)) {
             return Err(format!("--tune {}: expected it once", tuned[k].key));
         }
-        Ok(Self { path, text, places })
+        Ok(Self { text, places })
     }
 
     /// The values that stand in the file.
@@ -201,7 +195,8 @@ pub fn of_share(figure: Figure, outcomes: &[Outcome]) -> f64 {
     quantile(&values, SHARE)
 }
 
-/// Searches the ranges; `try_out` gives what is to be least at these values. Gives all points, the best one first.
+/// Searches the ranges; `try_out` gives what is to be least at these values. Gives all points, the best one first: of
+/// equal ones that which was tried first.
 ///
 /// # Errors
 /// What `try_out` says of a run that failed.
@@ -209,18 +204,19 @@ pub fn search(
     tuned: &[Tuned],
     mut try_out: impl FnMut(&[f64]) -> Result<Result<f64, String>, String>,
 ) -> Result<Vec<Tried>, String> {
-    let mut known: BTreeMap<Vec<u64>, Tried> = BTreeMap::new();
+    let mut all: Vec<Tried> = Vec::new();
     let mut at = |shares: &[f64]| -> Result<f64, String> {
         let values: Vec<f64> = tuned.iter().zip(shares).map(|(tuned, share)| tuned.at(*share)).collect();
-        let key: Vec<u64> = values.iter().map(|value| value.to_bits()).collect();
-        if !known.contains_key(&key) {
-            let (objective, refused) = match try_out(&values)? {
-                Ok(objective) => (Some(objective), None),
-                Err(reason) => (None, Some(reason)),
-            };
-            known.insert(key.clone(), Tried { values, objective, refused });
-        }
-        Ok(known[&key].objective.unwrap_or(f64::INFINITY))
+        let objective = match all.iter().find(|known| known.values == values) {
+            Some(known) => known.objective,
+            None => {
+                let found = try_out(&values)?;
+                let (objective, refused) = (found.as_ref().ok().copied(), found.err());
+                all.push(Tried { values, objective, refused });
+                objective
+            }
+        };
+        Ok(objective.unwrap_or(f64::INFINITY))
     };
     let points = GRID[tuned.len().clamp(1, GRID.len()) - 1];
     let spacing = 1.0 / (points - 1) as f64;
@@ -251,7 +247,6 @@ pub fn search(
             step *= 0.5;
         }
     }
-    let mut all: Vec<Tried> = known.into_values().collect();
     let of = |tried: &Tried| tried.objective.unwrap_or(f64::INFINITY);
     all.sort_by(|a, b| of(a).total_cmp(&of(b)));
     Ok(all)

@@ -5,35 +5,32 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use super::figure::Outcome;
-use super::record::Record;
 
-/// Runs the draws on so many threads and adds each to the record when it is done. `done` counts them.
+/// Runs the draws on so many threads, one a core where none is named, and takes each when it is done.
 ///
 /// # Errors
-/// The first draw or line that failed; what was done before it is in the record.
+/// The first draw that failed or was not taken; what was done before it has been taken.
 pub fn work(
     draws: &[u64],
-    threads: usize,
-    record: &mut Record,
+    threads: Option<usize>,
     run: &(dyn Fn(u64) -> Result<Outcome, String> + Sync),
-    done: &(dyn Fn() + Sync),
+    take: &mut (dyn FnMut(u64, Outcome) -> Result<(), String> + Send),
 ) -> Result<(), String> {
+    let threads = threads.or_else(|| thread::available_parallelism().ok().map(Into::into)).unwrap_or(1);
     let next = AtomicUsize::new(0);
-    let shared = Mutex::new((record, Ok(())));
+    let shared = Mutex::new((take, Ok(())));
     let worker = || {
         while let Some(&draw) = draws.get(next.fetch_add(1, Ordering::Relaxed)) {
             let outcome = run(draw);
             let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
-            let added = outcome.and_then(|outcome| shared.0.add(draw, outcome));
+            let taken = outcome.and_then(|outcome| shared.0(draw, outcome));
             if shared.1.is_err() {
                 break;
             }
-            if added.is_err() {
-                shared.1 = added;
+            if taken.is_err() {
+                shared.1 = taken;
                 break;
             }
-            drop(shared);
-            done();
         }
     };
     thread::scope(|scope| {

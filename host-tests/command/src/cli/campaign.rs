@@ -4,7 +4,6 @@ mod tune;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use clap::{Args, Subcommand};
 
@@ -296,16 +295,17 @@ impl Campaign {
     ) -> Result<(), Failure> {
         let wanted = |draw: &u64| shard.is_none_or(|shard| shard.has(*draw)) && !record.outcomes.contains_key(draw);
         let draws: Vec<u64> = (0..settings.draws).filter(wanted).collect();
-        let threads = self.threads.or_else(|| std::thread::available_parallelism().ok().map(Into::into)).unwrap_or(1);
         let progress = Progress::of(draws.len() as u64);
         let one = |number: u64| run(scene, drive, &Draw::new(&settings.tolerances, settings.seed, number));
-        let done = AtomicU64::new(0);
-        let count = || {
-            let done = 1 + done.fetch_add(1, Ordering::Relaxed);
+        let mut done = 0;
+        let mut take = |number: u64, outcome: Outcome| {
+            record.add(number, outcome)?;
+            done += 1;
             progress.step();
             progress.says(&format!("{}: {done} of {} draws", settings.variant, draws.len()));
+            Ok(())
         };
-        work(&draws, threads, record, &one, &count).map_err(Failure::failed)
+        work(&draws, self.threads, &one, &mut take).map_err(Failure::failed)
     }
 
     /// One draw beside the nominal machine.

@@ -415,7 +415,7 @@ impl MachineFile {
             torque: two.gravity_torque.abs().max(0.5 * rated_torque),
             acceleration: 0.5 * ramp,
             speed: self.limits.speed,
-            torque_noise: self.disturbance.torque_noise,
+            torque_noise: self.disturbance.noise(),
             cycle: self.cycle(two.gravity_torque),
         }
     }

@@ -116,10 +116,9 @@ fn parse_up_to(name: &str, text: &str, most: usize) -> Result<MachineFile, Diagn
         Ok(Control { rate_hz: table.number("rate_hz", Quantity::RATE)? as u32 })
     })?;
     let disturbance = section(&mut root, "disturbance", |table| {
-        let torque_accuracy = table.number("torque_accuracy", Quantity::TORQUE)?;
         Ok(Disturbance {
-            torque_accuracy,
-            torque_noise: table.number_or("torque_noise", Quantity::TORQUE, torque_accuracy)?,
+            torque_accuracy: table.number("torque_accuracy", Quantity::TORQUE)?,
+            torque_noise: table.number_if("torque_noise", Quantity::TORQUE)?,
             load_torque_step: table.number("load_torque_step", Quantity::TORQUE)?,
             within: table.number("within", Quantity::TIME)?,
         })

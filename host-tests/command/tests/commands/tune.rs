@@ -48,7 +48,7 @@ fn numbers_are_replaced_where_they_stand() {
         label = \"coupling\"\nstiffness = 2_000\n[limits]\ntorque = 1e2\n";
     let of = |names: &[&str]| {
         let keys: Vec<Tuned> = names.iter().map(|name| key(name, 1.0, 2.0)).collect();
-        Text::of("m.toml".into(), text.to_owned(), &keys)
+        Text::of("m.toml", text.to_owned(), &keys)
     };
     let found = of(&["limits.torque", "element[0].inertia", "coupling.stiffness"]).unwrap();
     assert_eq!(found.values(), [100.0, 0.5, 2000.0]);

@@ -1,10 +1,7 @@
 //! `cargo driveline campaign FILE.toml --tune`: the values of a machine file that make a figure least.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::sync::Mutex;
-use std::sync::PoisonError;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::thread;
 
 use serde::Serialize;
 
@@ -13,7 +10,7 @@ use crate::campaign::drive::Drive;
 use crate::campaign::run::run;
 use crate::campaign::scenes::CampaignScene;
 use crate::campaign::tune::{SHARE, Text, Tried, Tuned, objective, of_share, search};
-use crate::campaign::{Draw, Figure, Outcome};
+use crate::campaign::{Draw, Figure, Outcome, work};
 use crate::cli::results::{Destination, check};
 use crate::cli::{Failure, Progress, say, say_json};
 use crate::machine_file::{parse, text};
@@ -91,17 +88,15 @@ impl Campaign {
         let least = self.least.iter().map(|word| figure(word)).collect::<Result<Vec<_>, _>>().map_err(usage)?;
         let least = if least.is_empty() { vec![Figure::LoadSpeed] } else { least };
         let (name, source) = text(&path, "a machine file")?;
-        let file = parse(&name, &source)?;
-        let noise = Tuned { key: "disturbance.torque_noise".to_owned(), low: 1.0, high: 1.0 };
-        let has_noise = Text::of(path.clone(), source.clone(), &[noise]).is_ok();
-        if !has_noise && keys.iter().any(|tuned| tuned.key == "disturbance.torque_accuracy") {
+        let disturbance = parse(&name, &source)?.disturbance;
+        if disturbance.torque_noise.is_none() && keys.iter().any(|tuned| tuned.key == "disturbance.torque_accuracy") {
             return Err(Failure::usage(format!(
                 "--tune disturbance.torque_accuracy: the noise of the torque would change with it; expected the noise \
                  that the torque has beside it, as `torque_noise = {:?}`",
-                file.disturbance.torque_noise
+                disturbance.noise()
             )));
         }
-        let original = Text::of(path.clone(), source, &keys).map_err(usage)?;
+        let original = Text::of(&name, source, &keys).map_err(usage)?;
         let stem = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
         let tuned_file = self.tuned.as_deref().map(|path| Destination::chosen("machine file", path));
         let page = Destination::page_unless(self.json, self.html.as_deref(), &format!("{stem}-tune"));
@@ -109,15 +104,23 @@ impl Campaign {
 
         let draws = self.draws.unwrap_or(DRAWS);
         let progress = Progress::open();
-        let tried = AtomicU64::new(0);
-        let outcomes_at = |values: &[f64]| {
-            let count = 1 + tried.fetch_add(1, Ordering::Relaxed);
-            progress.says(&format!("{stem}: point {count}, {draws} draws each"));
+        let mut tried = 0;
+        let mut outcomes_at = |values: &[f64]| {
+            tried += 1;
+            progress.says(&format!("{stem}: point {tried}, {draws} draws each"));
             self.outcomes(&name, &original.with(values), draws)
         };
+        let mut after = (f64::INFINITY, Vec::new());
         let points = search(&keys, |values| {
-            let outcomes = outcomes_at(values)?;
-            Ok(outcomes.and_then(|outcomes| objective(&least, &outcomes)))
+            let outcomes = match outcomes_at(values)? {
+                Ok(outcomes) => outcomes,
+                Err(refused) => return Ok(Err(refused)),
+            };
+            let found = objective(&least, &outcomes);
+            if let Some(&found) = found.as_ref().ok().filter(|found| **found < after.0) {
+                after = (found, outcomes);
+            }
+            Ok(found)
         })
         .map_err(Failure::failed)?;
         let Some(best) = points.first().filter(|best| best.objective.is_some()).cloned() else {
@@ -126,11 +129,10 @@ impl Campaign {
         };
         let from = original.values();
         let before = outcomes_at(&from).map_err(Failure::failed)?.ok();
-        let after = outcomes_at(&best.values).map_err(Failure::failed)?.map_err(Failure::failed)?;
         let change = |&(_, figure): &(&str, Figure)| Change {
             name: figure.name(),
             from: before.as_ref().map(|outcomes| of_share(figure, outcomes)),
-            to: of_share(figure, &after),
+            to: of_share(figure, &after.1),
         };
         let found = Found {
             draws,
@@ -166,30 +168,14 @@ impl Campaign {
             return Ok(Err(lacks));
         }
         let tolerances = self.tolerances(&scene)?;
-        let threads = self.threads.or_else(|| thread::available_parallelism().ok().map(Into::into)).unwrap_or(1);
-        let (next, done) = (AtomicU64::new(0), Mutex::new(Ok(vec![None; draws as usize])));
-        let worker = || {
-            loop {
-                let draw = next.fetch_add(1, Ordering::Relaxed);
-                if draw >= draws {
-                    break;
-                }
-                let outcome = run(&scene, &drive, &Draw::new(&tolerances, self.seed, draw));
-                let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
-                match (outcome, done.as_mut()) {
-                    (Ok(outcome), Ok(outcomes)) => outcomes[draw as usize] = Some(outcome),
-                    (Err(error), Ok(_)) => *done = Err(error),
-                    (_, Err(_)) => break,
-                }
-            }
+        let one = |number: u64| run(&scene, &drive, &Draw::new(&tolerances, self.seed, number));
+        let mut outcomes = BTreeMap::new();
+        let mut take = |number: u64, outcome: Outcome| {
+            outcomes.insert(number, outcome);
+            Ok(())
         };
-        thread::scope(|scope| {
-            for _ in 0..threads.max(1) {
-                scope.spawn(worker);
-            }
-        });
-        let outcomes = done.into_inner().unwrap_or_else(PoisonError::into_inner)?;
-        Ok(Ok(outcomes.into_iter().flatten().collect()))
+        work(&(0..draws).collect::<Vec<_>>(), self.threads, &one, &mut take)?;
+        Ok(Ok(outcomes.into_values().collect()))
     }
 }
 
