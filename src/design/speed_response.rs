@@ -50,14 +50,9 @@ impl LoopObserver<'_> {
                     let missing = (1.0 - shown[side].0, -shown[side].1);
                     let share = over(missing, shown[side]);
                     let share = hypot(share.0, share.1) as f32;
-                    // of this octave and of those above it
-                    let mut above = 0;
-                    while above <= octave {
-                        // a NaN counts as no knowledge at all
-                        if !(lag[side][above] >= share) {
-                            lag[side][above] = if share.is_nan() { f32::INFINITY } else { share };
-                        }
-                        above += 1;
+                    // a NaN counts as no knowledge at all
+                    if !(lag[side][octave] >= share) {
+                        lag[side][octave] = if share.is_nan() { f32::INFINITY } else { share };
                     }
                     side += 1;
                 }
@@ -65,6 +60,15 @@ impl LoopObserver<'_> {
                 step += 1;
             }
             octave += 1;
+        }
+        // up to a frequency: of the octaves below it too
+        while octave > 1 {
+            octave -= 1;
+            let mut side = 0;
+            while side < 2 {
+                lag[side][octave - 1] = lag[side][octave - 1].max(lag[side][octave]);
+                side += 1;
+            }
         }
         lag
     }
