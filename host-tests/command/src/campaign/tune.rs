@@ -2,7 +2,7 @@
 //!
 //! Each point is a campaign of the same draws, so that two points differ by their values alone. The points of a grid
 //! over all ranges come first; from the best one a compass search [Kolda, Lewis and Torczon 2003] halves its steps
-//! down to a hundredth of the ranges. Ranges are spaced by ratio.
+//! down to a five-hundredth of the ranges. Ranges are spaced by ratio.
 
 use serde::Serialize;
 use toml::de::{DeTable, DeValue};
@@ -17,7 +17,7 @@ pub const SHARE: f64 = 0.95;
 const GRID: [usize; 3] = [9, 6, 4];
 
 /// Share of a range below which steps are not halved any more.
-const LEAST_STEP: f64 = 0.01;
+const LEAST_STEP: f64 = 0.002;
 
 /// A key of a machine file and the range that it may have.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -54,7 +54,7 @@ impl Tuned {
     /// The value at a share of the range, by ratio.
     fn at(&self, share: f64) -> f64 {
         let value = self.low * (self.high / self.low).powf(share);
-        // as many digits as a search to a hundredth of a range can tell apart
+        // as many digits as steps of a five-hundredth of a range can tell apart
         format!("{value:.3e}").parse().unwrap_or(value).clamp(self.low, self.high)
     }
 }
