@@ -131,14 +131,18 @@ macro_rules! parts {
     )+};
 }
 
+const fn speed_loop_settings<M: Machine>() -> SpeedLoopSettings {
+    SpeedLoopSettings { torque_limit: M::RATING.torque_limit.0, ramp: M::RAMP }
+}
+
 macro_rules! governors {
     ($number:ident, $bases:expr) => {
         parts! { $number, $bases;
             [] Machine, DampingLag => DampingLagConfig<$number>,
                 DampingLagConfig::<$number>::new(M::SPEED_LOOP.damping_lag, M::PERIOD, $bases);
             [] Machine, Gains<$number> => Gains<$number>, match &M::GAINS {
-                GainSource::SpeedLoop(design) => Gains::<$number>::of_speed_loop(design, M::RAMP, $bases),
-                GainSource::Governor(design) => Gains::<$number>::new(design, M::RAMP, $bases),
+                GainSource::SpeedLoop(design) => Gains::<$number>::of_speed_loop(design, speed_loop_settings::<M>(), $bases),
+                GainSource::Governor(design) => Gains::<$number>::new(design, speed_loop_settings::<M>(), $bases),
             };
             [] HasDroop, Droop => DroopConfig<$number>,
                 DroopConfig::<$number>::new(M::DROOP, M::RATING.speed.0, M::RATING.torque.0, $bases);
@@ -182,8 +186,8 @@ macro_rules! governors {
                     "the speed loop's design and its governor differ in the lag of the damping: give the design \
                         with_damping_lag and the governor DampingLag, or neither"
                 );
-                let settings = SpeedLoopSettings { torque_limit: M::RATING.torque_limit.0, ramp: M::RAMP };
-                SpeedLoopConfig::<$number>::new(&M::SPEED_LOOP, settings, $bases).with_filter(F::CONFIG)
+                SpeedLoopConfig::<$number>::new(&M::SPEED_LOOP, speed_loop_settings::<M>(), $bases)
+                    .with_filter(F::CONFIG)
             };
         }
 

@@ -4,7 +4,7 @@ use super::constants::constants;
 use super::convert::{fixed, get, or_stop};
 use super::format::ANGLE_PER_RADIAN;
 use super::to::Values;
-use super::{Bases, Error, Format};
+use super::{Bases, Error, Format, SpeedLoopSettings};
 use crate::design::{GovernorDesign, SpeedLoopDesign};
 use crate::governor::{
     AccelerationFeedbackConfig, ActiveDampingConfig, DroopConfig, FeedForwardConfig, Gains, MovingAverageConfig,
@@ -96,8 +96,6 @@ const fn damps_within_base(damping: f64, format: &Format) -> bool {
 }
 
 /// The base of the torque over the least torque limit in fixed point: as far as the bases of a rating may be doubled.
-/// The estimates' roundings grow with the base: of random designs one in 90,000 parts from `f32` by 1 % of its limit in
-/// 400 ticks up to 128, more beyond.
 pub(super) const LEAST_LIMIT: f64 = 8192.0;
 
 /// Checks that in fixed point the integral moves by at most 1 % of a torque limit in 400 ticks by a turn that is wrong
@@ -113,15 +111,24 @@ pub(super) const fn within_base(torque: f64, format: &Format, sentence: &'static
     if format.unit != 1.0 && !(torque.abs() <= 1.0) { Err(Error::Value(sentence)) } else { Ok(torque) }
 }
 
-const fn gains(proportional: f64, integral: f64, period: f64, ramp: f64, format: &Format) -> Values<1, 2> {
+const fn gains(
+    proportional: f64,
+    integral: f64,
+    period: f64,
+    settings: SpeedLoopSettings,
+    format: &Format,
+) -> Values<1, 2> {
+    let SpeedLoopSettings { torque_limit, ramp } = settings;
     let step = ramp * period / format.bases.speed;
     // A ramp that rounds to zero would hold the setpoint.
     if !(step * format.unit >= least_step(format) && all_finite(&[step])) {
         return Err(Error::Value(RAMP));
     }
     let [gain, _, reset] = get!(law(proportional, integral, 0.0, period, format));
-    // The largest limit that there may be.
-    get!(holds(integral, format.bases.torque, format));
+    if !(torque_limit > 0.0 && torque_limit.is_finite()) {
+        return Err(Error::Value(LIMIT));
+    }
+    get!(holds(integral, torque_limit, format));
     Ok(([step], [gain, reset]))
 }
 
@@ -201,12 +208,15 @@ pub(super) const fn ticks(time: f64, period: f64) -> Result<u32, Error> {
 }
 
 constants! {
-    /// [`Error::Value`] for a ramp (rad/s2) that is not positive and finite, or that the number rounds to none;
-    /// [`Error::Coefficient`] for a gain that is not finite or beyond fixed point.
-    impl[] Gains[], new, try_new(design: &GovernorDesign, ramp: f64), |format| {
+    /// Gains below the torque limit of the governor's own limit.
+    ///
+    /// [`Error::Value`] for a ramp that is not positive and finite, or that the number rounds to none, for a torque
+    /// limit that is not positive and finite, and for an integral that the rounding of fixed point moves by more than
+    /// 1 % of it in 400 ticks; [`Error::Coefficient`] for a gain that is not finite or beyond fixed point.
+    impl[] Gains[], new, try_new(design: &GovernorDesign, settings: SpeedLoopSettings), |format| {
         let GovernorDesign { proportional, integral, period, .. } = *design;
         let ([ramp], [proportional, reset]) =
-            get!(To::part(gains(proportional, integral, period, ramp, &format), GAIN));
+            get!(To::part(gains(proportional, integral, period, settings, &format), GAIN));
         Ok(Gains { proportional, reset, ramp })
     }
 }
@@ -278,12 +288,11 @@ constants! {
 }
 
 constants! {
-    /// [`Error::Value`] for a ramp (rad/s2) that is not positive and finite, [`Error::Coefficient`] for a gain beyond
-    /// fixed point.
-    impl[] Gains[], of_speed_loop, try_of_speed_loop(design: &SpeedLoopDesign, ramp: f64), |format| {
+    /// Gains of a speed loop, as [`try_new`](Self::try_new) makes those of a governor.
+    impl[] Gains[], of_speed_loop, try_of_speed_loop(design: &SpeedLoopDesign, settings: SpeedLoopSettings), |format| {
         let SpeedLoopDesign { proportional, integral, period, .. } = *design;
         let ([ramp], [proportional, reset]) =
-            get!(To::part(gains(proportional, integral, period, ramp, &format), GAIN));
+            get!(To::part(gains(proportional, integral, period, settings, &format), GAIN));
         Ok(Gains { proportional, reset, ramp })
     }
 }

@@ -232,11 +232,11 @@ macro_rules! drives {
             let softer = drawn.machine.try_speed_loop(rate, softer).ok()?;
             let limit = SymmetricLimitConfig::<N>::try_new(drawn.torque_limit, bases).ok()?;
             let slew = SlewConfig::<N, _>::try_new(drawn.slew, limit, drawn.period, bases).ok()?;
+            let settings = SpeedLoopSettings { torque_limit: drawn.torque_limit, ramp: drawn.ramp };
             let whole = |governor| Config { limits, observer, fluctuation: (), governor, balancer: () };
             let governed = |governor| Config { limits, observer, fluctuation: (), governor, balancer: () };
             Some(match $kind {
                 0 => {
-                    let settings = SpeedLoopSettings { torque_limit: drawn.torque_limit, ramp: drawn.ramp };
                     let first = whole(SpeedLoopConfig::<N>::try_new(&speed_loop, settings, bases).ok()?);
                     let second = whole(SpeedLoopConfig::<N>::try_new(&softer, settings, bases).ok()?);
                     Box::new(Held(Plain::<N>::new(&first, 0), [first, second], drawn.bases))
@@ -244,7 +244,7 @@ macro_rules! drives {
                 1 => {
                     let with = |design| {
                         Some(SpeedGovernorConfig {
-                            gains: Gains::<N>::try_of_speed_loop(design, drawn.ramp, bases).ok()?,
+                            gains: Gains::<N>::try_of_speed_loop(design, settings, bases).ok()?,
                             shape: DroopConfig::<N>::try_new(drawn.droop, drawn.speed, drawn.torque_limit, bases)
                                 .ok()?,
                             compensation: (
@@ -263,7 +263,7 @@ macro_rules! drives {
                     let actuator = driveline::design::Actuator { delay: 5.0 * drawn.period, lag: 10.0 * drawn.period };
                     let with = |factor| {
                         let design = drawn.machine.try_governor(rate, actuator, factor, LoadFeedForward::NONE).ok()?;
-                        let gains = Gains::<N>::try_new(&design, drawn.ramp, bases).ok()?;
+                        let gains = Gains::<N>::try_new(&design, settings, bases).ok()?;
                         Some(SpeedGovernorConfig {
                             gains,
                             shape: (),

@@ -310,14 +310,15 @@ fn the_constants_of_a_speed_loop() {
 #[test]
 fn a_loop_whose_roundings_move_the_torque_is_refused() {
     let tried = |bandwidth: f64, integral: f64, limit: f64, torque: f64| {
-        let design = speed_loop(4.0 * bandwidth, integral * bandwidth * bandwidth, 0.0);
+        let design = speed_loop(16.0 * bandwidth, integral * bandwidth * bandwidth, 0.0);
         let settings = SpeedLoopSettings { torque_limit: limit, ramp: 70.0 };
         assert!(SpeedLoopConfig::<f32>::try_new(&design, settings, BASES).is_ok());
         SpeedLoopConfig::<Fixed>::try_new(&design, settings, Bases { torque, ..BASES }).map_err(Error::message)
     };
     let (base, integral) = (BASES.torque, 30_000.0);
     let limit = 100.0 * 400.0 * integral * 4.0 / ANGLE;
-    assert!(limit > base / 8192.0 && tried(1.0, integral, 1.001 * limit, base).is_ok());
+    assert!(limit > base / 8192.0);
+    assert_eq!(tried(1.0, integral, 1.001 * limit, base).map(|_| ()), Ok(()));
     let refused = tried(1.0, integral, 0.999 * limit, base).unwrap_err();
     assert!(refused.contains("1 % of the torque limit in 400 ticks: lower the bandwidth"), "{refused}");
     assert!(tried(0.99, integral, 0.999 * limit, base).is_ok());
@@ -325,13 +326,25 @@ fn a_loop_whose_roundings_move_the_torque_is_refused() {
     let refused = tried(1.0, 1.0, 0.999 * base / 8192.0, base).unwrap_err();
     assert!(refused.contains("at least 1/8192 of it: lower the base"), "{refused}");
     assert!(tried(1.0, 1.0, 0.999 * base / 8192.0, 0.99 * base).is_ok());
-    // a composed governor's limit is at most the base
-    let gains = |integral: f64| {
-        Gains::<Fixed>::try_of_speed_loop(&speed_loop(4e4, integral, 0.0), 7.0, Bases { speed: 1e-3, ..BASES })
+    // a composed governor's gains know its limit as well
+    let gains = |share: f64, torque: f64| {
+        let settings = SpeedLoopSettings { torque_limit: share * limit, ramp: 7.0 };
+        Gains::<Fixed>::try_of_speed_loop(&speed_loop(16.0, integral, 0.0), settings, Bases { torque, ..BASES })
     };
-    let most = 0.01 * base / 400.0 * ANGLE / 4.0;
-    assert!(gains(0.999 * most).is_ok(), "{:?}", gains(0.999 * most));
-    assert_eq!(gains(1.001 * most).unwrap_err().message(), tried(1.0, integral, 0.999 * limit, base).unwrap_err());
+    for base in [base, 100.0 * base] {
+        assert!(gains(1.001, base).is_ok(), "{:?}", gains(1.001, base));
+        assert_eq!(
+            gains(0.999, base).unwrap_err().message(),
+            tried(1.0, integral, 0.999 * limit, BASES.torque).unwrap_err()
+        );
+    }
+    for torque_limit in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let settings = SpeedLoopSettings { torque_limit, ramp: 7.0 };
+        assert!(
+            Gains::<f64>::try_of_speed_loop(&speed_loop(1.0, 1.0, 0.0), settings, BASES).is_err(),
+            "{torque_limit}"
+        );
+    }
     for (share, is_right) in [(1.001, true), (0.999, false)] {
         assert_eq!(SymmetricLimitConfig::<Fixed>::try_new(share * base / 8192.0, BASES).is_ok(), is_right);
     }
@@ -351,12 +364,16 @@ fn governor(proportional: f64, integral: f64, acceleration: f64) -> GovernorDesi
     }
 }
 
+const fn with_ramp(ramp: f64) -> SpeedLoopSettings {
+    SpeedLoopSettings { torque_limit: 300.0, ramp }
+}
+
 #[test]
 fn the_constants_of_a_governor() {
     let gain = BASES.speed / BASES.torque / 32.0;
     let design = governor(4.0, 50.0, 0.3);
-    let si = Gains::<f64>::try_new(&design, 70.0, BASES).unwrap();
-    let fixed = Gains::<Fixed>::try_new(&design, 70.0, BASES).unwrap();
+    let si = Gains::<f64>::try_new(&design, with_ramp(70.0), BASES).unwrap();
+    let fixed = Gains::<Fixed>::try_new(&design, with_ramp(70.0), BASES).unwrap();
     for (si, fixed, value, per_unit) in [
         (si.proportional, fixed.proportional, 4.0 + 50.0 * PERIOD, gain),
         (si.reset, fixed.reset, 50.0 * PERIOD / (4.0 + 50.0 * PERIOD), 1.0),
@@ -371,31 +388,38 @@ fn the_constants_of_a_governor() {
     for (share, is_right) in [(0.999, true), (1.001, false)] {
         for [proportional, integral] in [[share * 16.0, 0.0], [9.0, share * 16.0 - 9.0], [1.0, share]] {
             let design = governor(proportional * unit, integral * unit / PERIOD, 0.3);
-            assert_eq!(Gains::<Fixed>::try_new(&design, 70.0, BASES).is_ok(), is_right, "{share} {design:?}");
-            assert!(Gains::<f32>::try_new(&design, 70.0, BASES).is_ok());
+            assert_eq!(
+                Gains::<Fixed>::try_new(&design, with_ramp(70.0), BASES).is_ok(),
+                is_right,
+                "{share} {design:?}"
+            );
+            assert!(Gains::<f32>::try_new(&design, with_ramp(70.0), BASES).is_ok());
         }
     }
-    let of_loop = Gains::<f64>::try_of_speed_loop(&speed_loop(4.0, 50.0, 3.0), 70.0, BASES).unwrap();
+    let of_loop = Gains::<f64>::try_of_speed_loop(&speed_loop(4.0, 50.0, 3.0), with_ramp(70.0), BASES).unwrap();
     assert_eq!(of_loop, si);
     for proportional in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(Gains::<f64>::try_new(&governor(proportional, 50.0, 0.3), 70.0, BASES).is_err(), "{proportional}");
+        assert!(
+            Gains::<f64>::try_new(&governor(proportional, 50.0, 0.3), with_ramp(70.0), BASES).is_err(),
+            "{proportional}"
+        );
     }
     for integral in [-1.0, f64::NAN, f64::INFINITY] {
-        assert!(Gains::<f64>::try_new(&governor(4.0, integral, 0.3), 70.0, BASES).is_err(), "{integral}");
+        assert!(Gains::<f64>::try_new(&governor(4.0, integral, 0.3), with_ramp(70.0), BASES).is_err(), "{integral}");
     }
     for ramp in [0.0, -70.0, f64::NAN, f64::INFINITY, 1e43] {
-        assert!(Gains::<f32>::try_new(&design, ramp, BASES).is_err(), "{ramp}");
-        assert!(Gains::<Fixed>::try_new(&design, ramp, BASES).is_err(), "{ramp}");
+        assert!(Gains::<f32>::try_new(&design, with_ramp(ramp), BASES).is_err(), "{ramp}");
+        assert!(Gains::<Fixed>::try_new(&design, with_ramp(ramp), BASES).is_err(), "{ramp}");
     }
     // a unit in the last place of the base in a tick
     for (places, is_right) in [(1.001, true), (0.999, false)] {
         let ramp = places / UNIT * BASES.speed / PERIOD;
-        assert_eq!(Gains::<Fixed>::try_new(&design, ramp, BASES).is_ok(), is_right, "{places}");
-        assert!(Gains::<f32>::try_new(&design, ramp, BASES).is_ok());
+        assert_eq!(Gains::<Fixed>::try_new(&design, with_ramp(ramp), BASES).is_ok(), is_right, "{places}");
+        assert!(Gains::<f32>::try_new(&design, with_ramp(ramp), BASES).is_ok());
     }
     let least = f64::from(f32::MIN_POSITIVE) / PERIOD;
-    assert!(Gains::<f32>::try_new(&design, 1.001 * least, BASES).is_ok());
-    assert!(Gains::<f32>::try_new(&design, 0.999 * least, BASES).is_err());
+    assert!(Gains::<f32>::try_new(&design, with_ramp(1.001 * least), BASES).is_ok());
+    assert!(Gains::<f32>::try_new(&design, with_ramp(0.999 * least), BASES).is_err());
 }
 
 #[test]
@@ -458,7 +482,7 @@ fn the_constants_of_a_governors_parts() {
     }
     for (most, is_right) in [(1.0, true), (1.0001, false)] {
         let torque = most * BASES.torque;
-        assert_eq!(TorqueRangeConfig::<Fixed>::try_new(-torque, 3.0, BASES).is_ok(), is_right);
+        assert_eq!(TorqueRangeConfig::<Fixed>::try_new(-torque, 0.1 * BASES.torque, BASES).is_ok(), is_right);
         assert_eq!(SymmetricLimitConfig::<Fixed>::try_new(torque, BASES).is_ok(), is_right);
     }
     for (delay, ticks) in [(0.0, Some(0)), (1.49e-4, Some(1)), (1.51e-4, Some(2)), (3.49e-4, Some(3))] {

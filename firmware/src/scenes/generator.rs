@@ -50,7 +50,7 @@ use driveline::machine::{
 use driveline::number::{Fixed, Number, Part};
 use driveline::observer::TwoMassObserver;
 use driveline::sample::Sample;
-use driveline::settings::{ActuatorMonitorSettings, Bases, Screening, SequencerSettings};
+use driveline::settings::{ActuatorMonitorSettings, Bases, Screening, SequencerSettings, SpeedLoopSettings};
 
 use crate::scene::composed::{Beside, Composed, output};
 use crate::scene::table::variants;

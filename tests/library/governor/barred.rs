@@ -7,7 +7,7 @@ use driveline::governor::{
 use driveline::machine::{Chain, Cylinder, Damping, Inertia, Length, Stiffness};
 use driveline::number::StateOf;
 use driveline::sample::Estimate;
-use driveline::settings::Bases;
+use driveline::settings::{Bases, SpeedLoopSettings};
 use proptest::prelude::*;
 
 const PERIOD: f64 = 1e-3;
@@ -113,7 +113,7 @@ fn a_range_is_passed_quickly_and_never_stayed_in() {
         LoadFeedForward::NONE,
     );
     let config = SpeedGovernorConfig {
-        gains: Gains::<f64>::new(&design, 10.0, Bases::SI),
+        gains: Gains::<f64>::new(&design, SpeedLoopSettings { torque_limit: 100.0, ramp: 10.0 }, Bases::SI),
         shape: BarredConfig::<f64, 2>::new(&barred, 40.0, PERIOD, Bases::SI),
         compensation: (),
         limit: SymmetricLimitConfig::<f64>::new(100.0, Bases::SI),

@@ -9,7 +9,7 @@ use driveline::governor::{
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::{Fixed, Number, StateOf};
 use driveline::sample::Estimate;
-use driveline::settings::Bases;
+use driveline::settings::{Bases, SpeedLoopSettings};
 use proptest::prelude::*;
 
 const MACHINE: TwoMass = TwoMass::new(Inertia(4.4), Inertia(8.0), Stiffness(5.0e4), Damping(66.0));
@@ -20,6 +20,9 @@ const PERIOD: f64 = 5e-4;
 const DESIGN: GovernorDesign =
     MACHINE.governor(Rate::every(PERIOD), Actuator { delay: 0.02, lag: 0.02 }, 2.5, LoadFeedForward::NONE);
 const RAMP: f64 = 40.0;
+const SETTINGS: SpeedLoopSettings = SpeedLoopSettings { torque_limit: TORQUE, ramp: RAMP };
+/// With a ramp of one tick.
+const STEP: SpeedLoopSettings = SpeedLoopSettings { torque_limit: TORQUE, ramp: 1e9 };
 
 /// Droop, feed-forward, a curve: a governor of every kind of part.
 type Whole<N> = StateOf<SpeedGovernor<Droop, FeedForward, Curve<3>>, N>;
@@ -53,7 +56,7 @@ impl Law {
 
 fn single() -> <Whole<f32> as Governor<f32>>::Config {
     SpeedGovernorConfig {
-        gains: Gains::<f32>::new(&DESIGN, RAMP, Bases::SI),
+        gains: Gains::<f32>::new(&DESIGN, SETTINGS, Bases::SI),
         shape: DroopConfig::<f32>::new(0.04, SPEED, TORQUE, Bases::SI),
         compensation: FeedForwardConfig::<f32>::new(0.9, Bases::SI),
         limit: CurveConfig::<f32, 3>::new(&CURVE, -100.0, Bases::SI),
@@ -64,7 +67,7 @@ fn single() -> <Whole<f32> as Governor<f32>>::Config {
 
 fn fixed() -> <Whole<Fixed> as Governor<Fixed>>::Config {
     SpeedGovernorConfig {
-        gains: Gains::<Fixed>::new(&DESIGN, RAMP, BASES),
+        gains: Gains::<Fixed>::new(&DESIGN, SETTINGS, BASES),
         shape: DroopConfig::<Fixed>::new(0.04, SPEED, TORQUE, BASES),
         compensation: FeedForwardConfig::<Fixed>::new(0.9, BASES),
         limit: CurveConfig::<Fixed, 3>::new(&CURVE, -100.0, BASES),
@@ -130,7 +133,7 @@ proptest! {
 fn the_integral_does_not_wind_up_behind_any_limit() {
     fn leaves<L: Limit<f64>>(limit: L::Config) -> f64 {
         let config = SpeedGovernorConfig {
-            gains: Gains::<f64>::new(&DESIGN, 1e9, Bases::SI),
+            gains: Gains::<f64>::new(&DESIGN, STEP, Bases::SI),
             shape: (),
             compensation: (),
             limit,
@@ -166,7 +169,7 @@ fn the_integral_does_not_wind_up_behind_any_limit() {
 fn slew_and_limit_hold_in_every_tick() {
     let slew = SlewConfig::<f64, _>::new(1e5, TorqueRangeConfig::<f64>::new(0.0, TORQUE, Bases::SI), PERIOD, Bases::SI);
     let config = SpeedGovernorConfig {
-        gains: Gains::<f64>::new(&DESIGN, 1e9, Bases::SI),
+        gains: Gains::<f64>::new(&DESIGN, STEP, Bases::SI),
         shape: (),
         compensation: (),
         limit: slew,
@@ -189,18 +192,16 @@ fn slew_and_limit_hold_in_every_tick() {
 fn with_damping_and_nothing_else_it_is_the_speed_loop() {
     use driveline::design::SpeedLoopTuning;
     use driveline::governor::{SpeedLoop, SpeedLoopConfig};
-    use driveline::settings::SpeedLoopSettings;
     let design = MACHINE.speed_loop(Rate::hz(2000), SpeedLoopTuning::USUAL);
     let config = SpeedGovernorConfig {
-        gains: Gains::<f32>::of_speed_loop(&design, RAMP, Bases::SI),
+        gains: Gains::<f32>::of_speed_loop(&design, SETTINGS, Bases::SI),
         shape: (),
         compensation: ActiveDampingConfig::<f32>::new(&design, Bases::SI),
         limit: SymmetricLimitConfig::<f32>::new(TORQUE, Bases::SI),
         sequence: (),
         filter: (),
     };
-    let loop_config =
-        SpeedLoopConfig::<f32>::new(&design, SpeedLoopSettings { torque_limit: TORQUE, ramp: RAMP }, Bases::SI);
+    let loop_config = SpeedLoopConfig::<f32>::new(&design, SETTINGS, Bases::SI);
     let mut governor = <StateOf<SpeedGovernor<(), ActiveDamping>, f32>>::default();
     let mut speed_loop = SpeedLoop::<(), _>::default();
     for tick in 0..4000 {

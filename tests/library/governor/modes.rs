@@ -8,7 +8,7 @@ use driveline::governor::{
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::StateOf;
 use driveline::sample::Estimate;
-use driveline::settings::{Bases, Error, SequencerSettings};
+use driveline::settings::{Bases, Error, SequencerSettings, SpeedLoopSettings};
 use proptest::prelude::*;
 
 const MACHINE: TwoMass = TwoMass::new(Inertia(4.4), Inertia(8.0), Stiffness(5.0e4), Damping(66.0));
@@ -30,7 +30,7 @@ fn config() -> <Supervised as Governor<f64>>::Config {
     let actuator = Actuator { delay: 0.02, lag: 0.02 };
     let design = MACHINE.governor(Rate::every(PERIOD), actuator, 3.0, LoadFeedForward::NONE);
     SpeedGovernorConfig {
-        gains: Gains::<f64>::new(&design, 20.0, Bases::SI),
+        gains: Gains::<f64>::new(&design, SpeedLoopSettings { torque_limit: 400.0, ramp: 20.0 }, Bases::SI),
         shape: (),
         compensation: (),
         limit: SymmetricLimitConfig::<f64>::new(400.0, Bases::SI),

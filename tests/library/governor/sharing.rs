@@ -7,7 +7,7 @@ use driveline::governor::{
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::StateOf;
 use driveline::sample::Estimate;
-use driveline::settings::Bases;
+use driveline::settings::{Bases, SpeedLoopSettings};
 use driveline_solver::plant::{Chain, Shaft, Start};
 
 const PERIOD: f64 = 1e-3;
@@ -22,7 +22,7 @@ fn settled(rated: [f64; 2], droop: [f64; 2], load: f64) -> (f64, [f64; 2]) {
         machine.governor(Rate::every(PERIOD), Actuator { delay: 0.0, lag: 0.05 }, 3.0, LoadFeedForward::NONE)
     });
     let config = [0, 1].map(|k: usize| SpeedGovernorConfig {
-        gains: Gains::<f64>::new(&design[k], 40.0, Bases::SI),
+        gains: Gains::<f64>::new(&design[k], SpeedLoopSettings { torque_limit: 1.1 * rated[k], ramp: 40.0 }, Bases::SI),
         shape: DroopConfig::<f64>::new(droop[k], SPEED, rated[k], Bases::SI),
         compensation: (),
         limit: TorqueRangeConfig::<f64>::new(0.0, 1.1 * rated[k], Bases::SI),

@@ -8,7 +8,7 @@ use driveline::governor::{
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::StateOf;
 use driveline::sample::Estimate;
-use driveline::settings::Bases;
+use driveline::settings::{Bases, SpeedLoopSettings};
 use proptest::prelude::*;
 
 const MACHINE: TwoMass = TwoMass::new(Inertia(4.4), Inertia(8.0), Stiffness(5.0e4), Damping(66.0));
@@ -20,7 +20,7 @@ fn config(span: f64, droop: f64, share: f64) -> <Switched as Governor<f64>>::Con
     SpeedGovernorConfig {
         gains: Gains::<f64>::new(
             &MACHINE.governor(Rate::hz(2000), actuator, span, LoadFeedForward::NONE),
-            40.0,
+            SpeedLoopSettings { torque_limit: 3000.0, ramp: 40.0 },
             Bases::SI,
         ),
         shape: DroopConfig::<f64>::new(droop, 157.0, 2500.0, Bases::SI),

@@ -12,7 +12,11 @@ macro_rules! parts {
             };
 
             /// Gains and ramp.
-            pub const GAINS: Gains<$number> = Gains::<$number>::new(&DIESEL.governor(false), DIESEL.ramp, $bases);
+            pub const GAINS: Gains<$number> = Gains::<$number>::new(
+                &DIESEL.governor(false),
+                SpeedLoopSettings { torque_limit: DIESEL_TORQUE, ramp: DIESEL.ramp },
+                $bases,
+            );
             /// Droop.
             pub const DROOP: DroopConfig<$number> =
                 DroopConfig::<$number>::new(super::super::DROOP, RATED_SPEED, DIESEL_TORQUE, $bases);

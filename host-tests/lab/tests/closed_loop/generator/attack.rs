@@ -14,7 +14,7 @@ use driveline::machine::{Damping, Inertia, Stiffness, TwoMass as Machine};
 use driveline::number::{Fixed, Number, StateOf};
 use driveline::observer::{TwoMassConfig, TwoMassObserver};
 use driveline::sample::{Estimate, Sample};
-use driveline::settings::{Bases, Screening, SequencerSettings};
+use driveline::settings::{Bases, Screening, SequencerSettings, SpeedLoopSettings};
 use driveline_closed_loop::units::Units;
 use driveline_firmware::Words;
 use driveline_firmware::scene::{Input, Scene};
@@ -30,6 +30,7 @@ const SPEED: f64 = 157.0;
 const PERIOD: f64 = 5e-4;
 const RATE: Rate = Rate::every(PERIOD);
 const RAMP: f64 = 40.0;
+const SETTINGS: SpeedLoopSettings = SpeedLoopSettings { torque_limit: TORQUE, ramp: RAMP };
 const BASES: Bases = Bases::new(&MACHINE, 2.5 * TORQUE, 1.34 * SPEED);
 const LATE: Actuator = Actuator { delay: 0.02, lag: 0.02 };
 const FED: GovernorDesign = MACHINE.governor(RATE, LATE, 2.5, LoadFeedForward { share: 0.9, lag: 0.02 });
@@ -73,7 +74,7 @@ macro_rules! wired {
             const UNIT: [f64; 2] = $unit;
             fn governors(slew: f64) -> [Constants<Self>; 2] {
                 [(&FED, 0.0), (&HEAVY, 0.04)].map(|(design, droop)| SpeedGovernorConfig {
-                    gains: Gains::<$number>::new(design, RAMP, $bases),
+                    gains: Gains::<$number>::new(design, SETTINGS, $bases),
                     shape: DroopConfig::<$number>::new(droop, SPEED, TORQUE, $bases),
                     compensation: (
                         FeedForwardConfig::<$number>::new(design.share, $bases),
