@@ -36,7 +36,7 @@ mod two_mass;
 pub use angle::{AngleTracker, Prediction};
 pub use backlash::{BacklashConfig, BacklashObserver, Contact, Correction, FreeFlight, Gap};
 pub use cranked::{CrankConfig, CrankObserver, TABLE_POINTS, TablePoint};
-pub use geared::{GearedConfig, GearedObserver, Stiction};
+pub use geared::{GearFriction, GearedConfig, GearedObserver, Stiction};
 pub use load_gear::{LoadGearConfig, LoadGearObserver};
 pub use rigid::{RigidConfig, RigidObserver};
 pub use semi_implicit::{SemiImplicitConfig, SemiImplicitObserver};

@@ -1,14 +1,14 @@
 //! Friction of a gear, from the motor's torque up and down.
 //!
 //! At a steady speed under a load torque T the motor carries `T/eta` where it drives the load, and `eta T` where the
-//! load drives it [Huang 1987 tables 1-2 to 1-4]. From the two means, with `q = (up - down)/(up + down)`,
+//! load drives it [Huang 1987 tables 1-2 to 1-4]. From the two means,
 //!
 //! ```text
-//! lambda = (1/eta - eta)/2 = q/sqrt(1 - q^2)
+//! lambda = (up - down)/(up + down) = (1 - eta^2)/(1 + eta^2)
 //! ```
 //!
-//! the friction per shaft torque of [`GearedObserver`](crate::observer::GearedObserver). The load cancels out, and so
-//! does the torque constant.
+//! the friction per torque of [`GearedObserver`](crate::observer::GearedObserver). The load cancels out, and so does
+//! the torque constant.
 //!
 //! Only windows count in which speed and torque are steady, and only a pair that lies close in time without a closed
 //! brake between: a change of the load would be taken for a loss. A finding changes the friction once a second pair
@@ -54,9 +54,13 @@ impl GearLossConfig {
             pause: (10.0 / every) as u32,
             least_speed: (0.25 * speed) as f32,
             least_torque: (0.2 * torque) as f32,
-            range: [(0.5 * (1.0 / most - most)) as f32, (0.5 * (1.0 / least - least)) as f32],
+            range: [friction(most) as f32, friction(least) as f32],
         }
     }
+}
+
+const fn friction(efficiency: f64) -> f64 {
+    (1.0 - efficiency * efficiency) / (1.0 + efficiency * efficiency)
 }
 
 /// Difference of the torques of a window's halves, as a fraction: a noise of 1 % of rated is below 0.5 % in the mean of
@@ -65,7 +69,7 @@ const STEADY_TORQUE: f32 = 0.02;
 /// Difference of two findings that confirm each other.
 const AGREEMENT: f32 = 0.01;
 
-/// Friction of a gear per shaft torque, learnt.
+/// Friction of a gear per torque, learnt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct GearLoss {
@@ -88,7 +92,7 @@ impl GearLoss {
         }
     }
 
-    /// The friction per shaft torque, as [`GearedConfig::friction`](crate::observer::GearedConfig::friction).
+    /// The friction per torque, for [`GearFriction::of`](crate::observer::GearFriction::of).
     pub fn friction(&self) -> f32 {
         self.friction
     }
@@ -124,8 +128,7 @@ impl GearLoss {
         if one.torque * other.torque <= 0.0 {
             return Finding::None;
         }
-        let q = (up - down) / (up + down);
-        let found = q / crate::math::sqrt(f64::from(1.0 - q * q)) as f32;
+        let found = (up - down) / (up + down);
         let [least, most] = config.range;
         if !(found >= least && found <= most) {
             self.unconfirmed = None;

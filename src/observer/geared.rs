@@ -1,12 +1,17 @@
 //! Gear losses, deducted from the motor's torque before an observer.
 //!
 //! The driving side supplies the loss [Huang 1987 tables 1-2 to 1-4]: motoring, the motor carries T/eta for a shaft
-//! torque T; overhauling, only eta T. The difference is a friction of about lambda T, with lambda half of (1/eta - 1) +
-//! (1 - eta), that opposes the motion; at a standstill it takes any value up to that, and holds the gear. The remaining
-//! torque of the motor is
+//! torque T; overhauling, only eta T. Both are a torque kT less or plus a friction lambda kT that opposes the motion:
 //!
 //! ```text
-//! tau = tau_m - friction,   friction = tau_m - T + c omega_m, limited to +-lambda |T|
+//! k (1 + lambda) = 1/eta,  k (1 - lambda) = eta:  lambda = (1 - eta^2)/(1 + eta^2),  k = (1 + eta^2)/(2 eta)
+//! ```
+//!
+//! At a standstill the friction takes any value up to that, and holds the gear. The observer behind it estimates kT from
+//! the remaining torque of the motor,
+//!
+//! ```text
+//! tau = tau_m - friction,   friction = tau_m - kT + c omega_m, limited to +-lambda |kT|
 //! ```
 //!
 //! in motion the limit, at standstill the balance of motor and shaft, with c omega_m (the stiction gain) to bring the
@@ -19,7 +24,7 @@
 //! Beyond the deadband it is kept, so that a gear that loses less than lambda, and creeps, is followed.
 
 use super::{Observer, Prediction};
-use crate::number::{Fixed, Number, Part};
+use crate::number::{Fixed, Magnitude, Number, Part};
 use crate::sample::Estimate;
 
 /// Constants of [`GearedObserver`].
@@ -28,12 +33,44 @@ use crate::sample::Estimate;
 pub struct GearedConfig<N: Stiction, C> {
     /// Constants of the observer behind the gear.
     pub observer: C,
-    /// Friction per shaft torque in motion, lambda.
-    pub friction: N::Coefficient,
+    /// Friction in motion.
+    pub friction: GearFriction<N>,
     /// Stiction gain c (N m s/rad).
     pub stiction_gain: N::StictionGain,
     /// Deadband: largest innovation left out while the gear sticks (2^-32 turn).
     pub deadband: N,
+}
+
+/// Friction of a gear whose driving side supplies the loss.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct GearFriction<N: Number> {
+    /// Friction per torque, lambda.
+    pub share: N::Coefficient,
+    /// Part of the torque that the observer finds too much, 1 - 1/k.
+    pub excess: N::Coefficient,
+}
+
+impl<N: Number<Coefficient: Magnitude>> GearFriction<N> {
+    /// From the friction per torque, as [`GearLoss`](crate::learning::GearLoss) learns it: from 0 to below 1, in fixed
+    /// point to 1/2.
+    #[must_use]
+    pub fn of(share: f32) -> Self {
+        // 1/k = sqrt(1 - lambda^2)
+        let excess = 1.0 - crate::math::sqrt(f64::from(1.0 - share * share)) as f32;
+        GearFriction { share: Magnitude::of(share), excess: Magnitude::of(excess) }
+    }
+}
+
+impl<N: Number> GearFriction<N> {
+    /// A torque behind the gear, as the observer finds it: kT, by the series of 1/(1 - excess).
+    fn found(&self, torque: N) -> N {
+        let mut found = torque;
+        for _ in 0..24 {
+            found = torque + found.times(self.excess);
+        }
+        found
+    }
 }
 
 /// An observer behind a gear with losses.
@@ -109,10 +146,11 @@ impl<N: Stiction, O: Observer<N>> Observer<N> for GearedObserver<O> {
     type States = (O::States, N);
 
     fn restart(&mut self, config: &Self::Config, angle: u32, torque: N, speed: N) {
-        self.observer.restart(&config.observer, angle, torque, speed);
+        self.observer.restart(&config.observer, angle, config.friction.found(torque), speed);
     }
 
     fn steady(config: &Self::Config, angle: u32, torque: N, speed: N) -> Self {
+        let torque = config.friction.found(torque);
         GearedObserver { observer: O::steady(&config.observer, angle, torque, speed) }
     }
 
@@ -131,7 +169,7 @@ impl<N: Stiction, O: Observer<N>> Observer<N> for GearedObserver<O> {
     #[inline(always)]
     fn predict(&self, config: &Self::Config, angle: u32, torque: N) -> Prediction<N, Self::States> {
         let now = self.observer.estimate(&config.observer);
-        let limit = now.shaft_torque.times(config.friction).magnitude();
+        let limit = now.shaft_torque.times(config.friction.share).magnitude();
         let holding = torque - now.shaft_torque + now.motor_speed.braked(config.stiction_gain);
         let (friction, deadband) = holding.friction(limit, &config.deadband);
         self.observer.predict(&config.observer, angle, torque - friction).with(deadband)
@@ -158,7 +196,9 @@ impl<N: Stiction, O: Observer<N>> Observer<N> for GearedObserver<O> {
 
     #[inline(always)]
     fn estimate(&self, config: &Self::Config) -> Estimate<N> {
-        self.observer.estimate(&config.observer)
+        let now = self.observer.estimate(&config.observer);
+        let behind = |torque: N| torque - torque.times(config.friction.excess);
+        Estimate { shaft_torque: behind(now.shaft_torque), load_torque: behind(now.load_torque), ..now }
     }
 
     #[inline(always)]

@@ -2,7 +2,7 @@
 
 use crate::governor::{DampingLagConfig, SpeedLoopConfig};
 use crate::number::{Interpolate, Magnitude, Number, Weight};
-use crate::observer::{GearedConfig, RigidConfig, SemiImplicitConfig, Stiction, TwoMassConfig};
+use crate::observer::{GearFriction, GearedConfig, RigidConfig, SemiImplicitConfig, Stiction, TwoMassConfig};
 
 macro_rules! fields {
     ($($config:ident { $($field:ident),+ })+) => {$(
@@ -48,7 +48,10 @@ where
     fn between(&self, other: &Self, weight: Weight) -> Self {
         GearedConfig {
             observer: self.observer.between(&other.observer, weight),
-            friction: self.friction.between(&other.friction, weight),
+            friction: GearFriction {
+                share: self.friction.share.between(&other.friction.share, weight),
+                excess: self.friction.excess.between(&other.friction.excess, weight),
+            },
             stiction_gain: self.stiction_gain.between(&other.stiction_gain, weight),
             deadband: self.deadband.between(&other.deadband, weight),
         }

@@ -4,7 +4,7 @@ use super::convert::{fixed, get, or_stop};
 use super::format::ANGLE_PER_RADIAN;
 use super::{Bases, Error};
 use crate::number::{Fixed, INNOVATION_RANGE, STICTION_GAIN};
-use crate::observer::{GearedConfig, LoadGearConfig};
+use crate::observer::{GearFriction, GearedConfig, LoadGearConfig};
 
 const EFFICIENCY: &str = "the efficiency of the gear must be above 0 and at most 1";
 const MOTOR: &str = "the inertia in front of the gear and the period must be positive and finite";
@@ -13,7 +13,7 @@ const PLAY: &str =
     "the deadband of a sticking gear must not be negative, and at most 5.6 degrees (0.098 rad) in fixed point";
 const LIGHT: &str =
     "the inertia in front of the gear is too light for the bases at this rate: raise the rate or the base of the speed";
-const FIXED: &str = "the efficiency of the gear must be above 0.62 in fixed point";
+const FIXED: &str = "the efficiency of the gear must be above 0.58 in fixed point";
 const LOAD_FIXED: &str = "the efficiency of the gear must be above 0.5 in fixed point, driven above 0.67";
 
 /// A gear with losses, as an observer has to know it.
@@ -38,11 +38,11 @@ impl Gear {
         STICTION_GAIN * (bases.torque / bases.speed) <= self.inertia / period
     }
 
-    /// Friction per shaft torque, stiction gain (N m s/rad) that stops the motor within two ticks, and the deadband
-    /// (2^-32 turn).
-    const fn losses(&self, period: f64) -> Result<[f64; 3], Error> {
+    /// Friction per torque with the part of the torque that is too much, stiction gain (N m s/rad) that stops the motor
+    /// within two ticks, and the deadband (2^-32 turn).
+    const fn losses(&self, period: f64) -> Result<([f64; 2], f64, f64), Error> {
         let eta = self.efficiency;
-        if !(eta > 0.0 && eta <= 1.0) {
+        if !(eta > 0.0 && eta <= 1.0 && ((1.0 / eta) as f32).is_finite()) {
             return Err(Error::Value(EFFICIENCY));
         }
         let stiction_gain = 0.5 * self.inertia / period;
@@ -53,11 +53,9 @@ impl Gear {
         if !(deadband >= 0.0 && deadband < INNOVATION_RANGE) {
             return Err(Error::Value(PLAY));
         }
-        let friction = 0.5 * ((1.0 / eta - 1.0) + (1.0 - eta));
-        if !(friction as f32).is_finite() {
-            return Err(Error::Value(EFFICIENCY));
-        }
-        Ok([friction, stiction_gain, deadband])
+        let square = eta * eta;
+        let friction = [(1.0 - square) / (1.0 + square), 1.0 - 2.0 * eta / (1.0 + square)];
+        Ok((friction, stiction_gain, deadband))
     }
 }
 
@@ -109,10 +107,10 @@ macro_rules! float {
             /// # Errors
             /// [`Error::Value`] for a figure of the gear that is out of its range.
             pub const fn try_new(observer: C, gear: &Gear, period: f64, _: Bases) -> Result<Self, Error> {
-                let [friction, stiction_gain, deadband] = get!(gear.losses(period));
+                let ([share, excess], stiction_gain, deadband) = get!(gear.losses(period));
                 Ok(GearedConfig {
                     observer,
-                    friction: friction as $float,
+                    friction: GearFriction { share: share as $float, excess: excess as $float },
                     stiction_gain: stiction_gain as $float,
                     deadband: deadband as $float,
                 })
@@ -162,15 +160,20 @@ impl<C: Copy> GearedConfig<Fixed, C> {
     ///
     /// # Errors
     /// [`Error::Value`] for a figure of the gear that is out of its range, or an inertia too light for the bases;
-    /// [`Error::Coefficient`] for an efficiency below 0.62.
+    /// [`Error::Coefficient`] for an efficiency below 0.58.
     pub const fn try_new(observer: C, gear: &Gear, period: f64, bases: Bases) -> Result<Self, Error> {
         get!(bases.check());
-        let [friction, _, deadband] = get!(gear.losses(period));
-        let [friction] = get!(fixed([friction], FIXED));
+        let (friction, _, deadband) = get!(gear.losses(period));
+        let [share, excess] = get!(fixed(friction, FIXED));
         if !gear.holds(period, bases) {
             return Err(Error::Value(LIGHT));
         }
-        Ok(GearedConfig { observer, friction, stiction_gain: (), deadband: Fixed::from_bits(deadband as i32) })
+        Ok(GearedConfig {
+            observer,
+            friction: GearFriction { share, excess },
+            stiction_gain: (),
+            deadband: Fixed::from_bits(deadband as i32),
+        })
     }
 }
 
@@ -211,10 +214,11 @@ mod tests {
 
     #[test]
     fn losses_are_in_range() {
-        // the mean of what is lost forwards and backwards, half of 0.25 and 0.2
-        let [friction, stiction, deadband] = GEAR.losses(0.01).unwrap();
-        // some operations
-        assert!((friction - 0.225).abs() < 1e-15 && stiction == 25.0, "{friction} {stiction}");
+        let ([share, excess], stiction, deadband) = GEAR.losses(0.01).unwrap();
+        // what the motor carries for 1 N m behind the gear, driving and driven; some operations
+        let found = 1.0 / (1.0 - excess);
+        assert!((found * (1.0 + share) - 1.25).abs() < 1e-15 && (found * (1.0 - share) - 0.8).abs() < 1e-15);
+        assert_eq!(stiction, 25.0);
         assert!((deadband / (4_294_967_296.0 * 0.01 / core::f64::consts::TAU) - 1.0).abs() < 1e-15);
         let refused = |gear: Gear, period: f64| gear.losses(period).err();
         for inertia in [0.0, -1.0, f64::INFINITY, 1e39, 1e-60] {

@@ -3,9 +3,9 @@
 use driveline::angle::RotorAngleConfig;
 use driveline::number::{Coefficient, Fixed, Number};
 use driveline::observer::{
-    BacklashConfig, BacklashObserver, Contact, Correction, CrankConfig, CrankObserver, FreeFlight, GearedConfig,
-    GearedObserver, Observer, RigidConfig, RigidObserver, SemiImplicitConfig, SemiImplicitObserver, TABLE_POINTS,
-    TablePoint, TwoMassConfig, TwoMassObserver,
+    BacklashConfig, BacklashObserver, Contact, Correction, CrankConfig, CrankObserver, FreeFlight, GearFriction,
+    GearedConfig, GearedObserver, Observer, RigidConfig, RigidObserver, SemiImplicitConfig, SemiImplicitObserver,
+    TABLE_POINTS, TablePoint, TwoMassConfig, TwoMassObserver,
 };
 
 use super::UNIT;
@@ -112,7 +112,8 @@ fn a_sum_takes_over_what_the_one_before_has_left() {
 
 fn geared(stiction_gain: f64) -> GearedConfig<f64, RigidConfig<f64>> {
     let observer = RigidConfig { correction: [0.5, 0.0], ..UNIT };
-    GearedConfig { observer, friction: 0.125, stiction_gain, deadband: 10.0 }
+    let friction = GearFriction { share: 0.125, excess: 0.0 };
+    GearedConfig { observer, friction, stiction_gain, deadband: 10.0 }
 }
 
 /// The gear's loss is an eighth of the shaft's torque and opposes the motion, whatever the shaft's sign.
@@ -125,6 +126,38 @@ fn a_gear_takes_its_loss_against_the_motion() {
         let predicted = observer.predict(&config, 0, shaft);
         observer.coast(predicted, 0);
         assert_eq!(observer.estimate(&config).motor_speed, speed + expected, "{speed} rad/s, {shaft} N m");
+    }
+}
+
+/// At a constant speed the motor carries T/eta while it drives the load and eta T while the load drives it, whatever
+/// the efficiency: the shaft torque is T either way.
+#[test]
+fn the_torque_behind_a_gear_is_right_in_both_directions() {
+    use driveline::design::{Disturbance, Encoder, Rate};
+    use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
+    use driveline::settings::{Bases, Gear};
+    let machine = TwoMass::new(Inertia(0.6), Inertia(0.8), Stiffness(5e3), Damping(3.0));
+    let disturbance = Disturbance { torque_accuracy: 5.0, load_torque_step: 300.0, within: 0.1 };
+    let design = machine.observer(Rate::hz(1000), Encoder::lines(2048), disturbance);
+    let observer = TwoMassConfig::<f64>::new(&design, Bases::SI);
+    for efficiency in [0.99, 0.94, 0.8, 0.6, 0.5] {
+        let gear = Gear { efficiency, inertia: 0.6, deadband: 0.0 };
+        let config = GearedConfig::<f64, _>::new(observer, &gear, 1e-3, Bases::SI);
+        for (speed, torque) in [(20.0, 300.0 / efficiency), (-20.0, 300.0 * efficiency)] {
+            let mut observer = GearedObserver::<TwoMassObserver<f64>>::steady(&config, 0, 0.0, speed);
+            for tick in 1..5000 {
+                let turns = speed * 1e-3 * f64::from(tick) / core::f64::consts::TAU;
+                observer.step(&config, (turns * 4_294_967_296.0) as i64 as u32, torque);
+            }
+            let estimate = observer.estimate(&config);
+            // an angle is truncated to 2^-32 turn, which its gain takes for 1e-4 N m
+            for found in [estimate.shaft_torque, estimate.load_torque] {
+                assert!((found - 300.0).abs() < 1e-3, "{efficiency} {speed}: {found}");
+            }
+            let held = GearedObserver::<TwoMassObserver<f64>>::at_rest(&config, 0, 300.0).estimate(&config);
+            // a series of which 24 terms are taken: 0.2^25
+            assert!((held.shaft_torque - 300.0).abs() < 1e-5, "{efficiency}: {}", held.shaft_torque);
+        }
     }
 }
 
@@ -168,6 +201,7 @@ fn the_residual_of_a_held_gear_decays() {
         load_share: zero,
     };
     for turned in [1_i32 << 20, -(1 << 20)] {
+        let friction = GearFriction { share: friction, excess: zero };
         let config = GearedConfig { observer, friction, stiction_gain: (), deadband: Fixed::from_bits((1 << 20) + 1) };
         let mut held = GearedObserver::<RigidObserver<Fixed>>::at_rest(&config, 0, Fixed::ONE);
         (0..100).for_each(|_| held.step(&config, turned as u32, Fixed::ONE));
@@ -385,7 +419,7 @@ fn the_observers_tell_of_a_state_beyond_its_base() {
     tells::<RigidObserver<Fixed>>(&rigid);
     tells::<GearedObserver<RigidObserver<Fixed>>>(&GearedConfig {
         observer: rigid,
-        friction: zero,
+        friction: GearFriction::default(),
         stiction_gain: (),
         deadband: Fixed::ZERO,
     });

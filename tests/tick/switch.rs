@@ -6,7 +6,7 @@ use driveline::governor::{
     SetpointLag, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, SymmetricLimit, SymmetricLimitConfig,
 };
 use driveline::number::StateOf;
-use driveline::observer::{GearedConfig, GearedObserver, Observer, TwoMassConfig, TwoMassObserver};
+use driveline::observer::{GearFriction, GearedConfig, GearedObserver, Observer, TwoMassConfig, TwoMassObserver};
 use driveline::sample::{Estimate, Sample};
 
 /// Shares and stiffness that a switch changes; the compliance is one over the stiffness.
@@ -30,7 +30,8 @@ fn two_mass(share: [f64; 2], stiffness: f64) -> TwoMassConfig<f64> {
 #[test]
 fn a_switch_of_two_masses_leaves_speed_and_shaft_torque() {
     let (from, to) = (two_mass([0.25, -0.75], 2.0), two_mass([0.75, -0.25], 8.0));
-    let geared = |observer| GearedConfig { observer, friction: 0.0, stiction_gain: 0.0, deadband: 0.0 };
+    let geared =
+        |observer| GearedConfig { observer, friction: GearFriction::default(), stiction_gain: 0.0, deadband: 0.0 };
     let mut observer = GearedObserver::<TwoMassObserver<f64>>::steady(&geared(from), 0, 0.0, 100.0);
     observer.step(&geared(from), 0, 8.0);
     let before = observer.estimate(&geared(from));

@@ -34,6 +34,8 @@ pub struct Behind<P> {
     peer: P,
     angle: u32,
     friction: f32,
+    /// What is left of the torque that the peer finds, behind the gear.
+    left: f32,
     stiction_gain: f32,
     deadband: f32,
 }
@@ -41,18 +43,19 @@ pub struct Behind<P> {
 impl<P> Behind<P> {
     /// A peer at rest at angle zero.
     pub fn new(scene: &Scene, peer: P) -> Self {
-        let [friction, stiction_gain, deadband] = match scene.gear {
-            None => [0.0; 3],
-            Some(gear) => [
-                0.5 * ((1.0 / gear.efficiency - 1.0) + (1.0 - gear.efficiency)),
-                0.5 * gear.inertia / scene.period(),
-                gear.deadband,
-            ],
+        let [friction, left, stiction_gain, deadband] = match scene.gear {
+            None => [0.0, 1.0, 0.0, 0.0],
+            Some(gear) => {
+                let square = gear.efficiency * gear.efficiency;
+                let left = 2.0 * gear.efficiency / (1.0 + square);
+                [(1.0 - square) / (1.0 + square), left, 0.5 * gear.inertia / scene.period(), gear.deadband]
+            }
         };
         Behind {
             peer,
             angle: 0,
             friction: friction as f32,
+            left: left as f32,
             stiction_gain: stiction_gain as f32,
             deadband: deadband as f32,
         }
@@ -88,7 +91,7 @@ impl<P: Peer> Replayed for Behind<P> {
         }
         self.peer.step(turn, torque, deadband);
         let [shaft, load, _] = self.peer.estimate();
-        output.shaft_torque = shaft.to_bits();
+        output.shaft_torque = (self.left * shaft).to_bits();
         output.load_speed = load.to_bits();
     }
 }

@@ -6,11 +6,11 @@ use driveline_solver::noise::Noise;
 /// A hoist of 750 N m and 155 rad/s, updated every 10 ms.
 const CONFIG: GearLossConfig = GearLossConfig::new(750.0, 155.0, [0.85, 0.99], 0.01);
 /// What the data sheet says: 94 %.
-const TOLD: f32 = 0.061_915;
+const TOLD: f32 = 0.061_797;
 
-/// The friction of a gear: half of what the motor carries more upwards than downwards, over the load.
+/// The friction of a gear: what the motor carries more upwards than downwards, over their sum.
 fn friction(efficiency: f64) -> f64 {
-    0.5 * (1.0 / efficiency - efficiency)
+    (1.0 / efficiency - efficiency) / (1.0 / efficiency + efficiency)
 }
 
 /// The motor's torque at a speed under a load, through a gear.

@@ -13,7 +13,7 @@ use driveline::learning::{
     TorqueCalibration, TorqueConstant, TorqueConstantConfig,
 };
 use driveline::number::{Fixed, Magnitude, Number};
-use driveline::observer::{GearedObserver, SemiImplicitObserver, Stiction};
+use driveline::observer::{GearFriction, GearedObserver, SemiImplicitObserver, Stiction};
 use driveline::sample::{Estimate, Sample};
 use driveline::scheduling::{LoadMass, LoadMassConfig, RopeLength};
 
@@ -128,7 +128,7 @@ macro_rules! follower {
                     }
                 }
                 // the schedule has the loss of the data sheet
-                self.config.observer.friction = Magnitude::of(self.loss.friction());
+                self.config.observer.friction = GearFriction::of(self.loss.friction());
                 let offset = <$number as Units>::from_torque::<M>(self.torque.offset());
                 self.calibration = TorqueCalibration::new(self.torque.gain(), offset);
             }
@@ -145,7 +145,7 @@ macro_rules! follower {
                 let length = self.rope.update(drive.angle(), estimate.motor_speed, 0.05);
                 let schedule: fn() -> &'static ScheduleOf<HoistDrive<$number>, 5, 4> = const { Self::schedule::<M> };
                 drive.follow(&mut self.config, schedule(), 1e3 / mass, 1.0 / length.max(1.0));
-                self.config.observer.friction = Magnitude::of(self.loss.friction());
+                self.config.observer.friction = GearFriction::of(self.loss.friction());
                 let motor = &mut self.config.observer.observer.motor;
                 *motor = Magnitude::scaled(motor, 1.0 / self.motor);
             }
