@@ -24,8 +24,6 @@ pub mod kalman;
 pub mod least_squares;
 pub mod library;
 pub mod list;
-/// As the comparison through the gap has it.
-#[path = "../../lab/src/backlash/approach/luenberger.rs"]
 pub mod luenberger;
 pub mod model;
 pub mod scene;

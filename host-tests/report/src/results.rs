@@ -71,54 +71,6 @@ impl Variant {
     }
 }
 
-/// The observer computed on the host with another step: the exact one's worth.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Comparison {
-    /// Step: `exact`, `semi-implicit`, `Tustin`, `forward Euler`.
-    pub step: String,
-    /// Observer it was put into.
-    pub observer: String,
-    /// Ticks a second.
-    pub rate_hz: u32,
-    /// Error of the shaft torque, of its peak.
-    pub shaft_torque: Deviation,
-    /// Error of the load speed, of the rated speed.
-    pub load_speed: Deviation,
-    /// Error of the load torque, of its peak.
-    pub load_torque: Deviation,
-}
-
-/// Flash and RAM of a drive composed in one way, by section of the image, over the image without a drive.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Composition {
-    /// Its parts: `rigid`, `two-mass`, `full`.
-    pub name: String,
-    /// Number type.
-    pub number: String,
-    /// Core.
-    pub core: String,
-    /// Code (byte).
-    pub text_bytes: u64,
-    /// Constants (byte).
-    pub rodata_bytes: u64,
-    /// Initialised data (byte): in flash and in RAM.
-    pub data_bytes: u64,
-    /// Zeroed data (byte).
-    pub bss_bytes: u64,
-}
-
-impl Composition {
-    /// Flash (byte).
-    pub const fn flash(&self) -> u64 {
-        self.text_bytes + self.rodata_bytes + self.data_bytes
-    }
-
-    /// RAM (byte).
-    pub const fn ram(&self) -> u64 {
-        self.data_bytes + self.bss_bytes
-    }
-}
-
 /// A budget and what was measured against it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Budget {

@@ -209,8 +209,6 @@ impl Rig {
 /// A recorded run.
 #[derive(Clone, Debug)]
 pub struct Course {
-    /// Actions.
-    pub kind: Kind,
     /// Angle and torque as reported to the drive.
     pub sensed: Vec<(u32, f64)>,
     /// Shaft torque (N m), load speed (rad/s) and twist (rad).
@@ -237,6 +235,6 @@ impl Course {
         }
         let largest = |k: usize| truth.iter().fold(0.0_f64, |peak, moment| peak.max(moment[k].abs()));
         let (peak, fastest) = (largest(0), largest(1));
-        Ok(Course { kind, sensed, truth, peak, fastest })
+        Ok(Course { sensed, truth, peak, fastest })
     }
 }

@@ -3,12 +3,11 @@
 use serde::Serialize;
 
 use super::{Aim, Factor};
-use crate::backlash::Comparison;
 use crate::balancing;
 use crate::cases::Case;
 use crate::commissioning::Verdict;
 use crate::generator::verdict::Verdicts;
-use driveline_report::{Sample, Sweep, Variant};
+use driveline_report::{Sample, Variant};
 
 /// A variant of a drivetrain.
 #[derive(Clone, Debug, Serialize)]
@@ -132,17 +131,13 @@ pub struct Survey {
     pub balanced: Vec<(String, Vec<balancing::Ran>)>,
     /// Published and made-up cases that are stiff or extreme.
     pub cases: Vec<Case>,
-    /// Ways through backlash over random reversals.
-    pub backlash: Option<Comparison>,
-    /// The steps over stiff and extreme machines.
-    pub sweeps: Vec<Sweep>,
     /// Failed jobs.
     pub failures: Vec<Failure>,
     /// How long it all took (s).
     pub seconds: f64,
     /// Day and commit.
     pub measured: String,
-    /// Whether it was only tried out: two seconds of each drivetrain, unproven, and a coarse sweep.
+    /// Whether it was only tried out: two seconds of each drivetrain, unproven.
     pub quick: bool,
     /// Whether only some scenes were requested.
     pub part: bool,

@@ -4,7 +4,6 @@ use super::Section;
 use crate::survey::Survey;
 use driveline_report::chart;
 use driveline_report::format::{grouped, percent};
-use driveline_report::page::view::Costs;
 use driveline_report::{Table, Variant};
 
 /// Every variant, with its scene before its observer.
@@ -15,13 +14,6 @@ fn named(survey: &Survey) -> Vec<Variant> {
     };
     let scenes = survey.scenes.iter();
     scenes.flat_map(|scene| scene.runs.iter().map(|run| name(&scene.name, &run.variant))).collect()
-}
-
-/// The plots.
-pub fn costs(survey: &Survey) -> Costs {
-    let plain: Vec<Variant> =
-        survey.scenes.iter().flat_map(|scene| scene.runs.iter().map(|run| run.variant.clone())).collect();
-    Costs::named(&plain, &named(survey))
 }
 
 /// Members of the front.
