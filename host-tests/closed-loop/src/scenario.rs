@@ -28,7 +28,6 @@ pub enum Action {
 /// A load torque that follows the motion.
 #[derive(Clone, Copy)]
 pub struct Law {
-    /// The node.
     pub node: usize,
     /// Torque, referred to the motor (N m), for the plant as it is.
     pub torque: fn(&Body) -> f64,
@@ -70,7 +69,6 @@ pub struct Machine {
     pub chosen: (&'static str, u32),
     /// The runs.
     pub scenarios: Vec<Scenario>,
-    /// Its encoder.
     pub encoder: Encoder,
     /// Standard deviation of the drive's reported torque in a tick at the rate of `chosen` (N m): at another rate white
     /// noise of the same density.

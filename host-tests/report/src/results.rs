@@ -19,7 +19,6 @@ pub struct Deviation {
 pub struct Instructions {
     /// Fewest.
     pub min: u64,
-    /// Median.
     pub median: u64,
     /// Most of the run's inputs, which is no bound.
     pub max: u64,
@@ -78,7 +77,6 @@ pub struct Budget {
     pub name: String,
     /// Unit of both numbers: `instructions`, `byte`, `%`; empty for a pure number.
     pub unit: String,
-    /// Measurement.
     #[serde(with = "diverged_as_null")]
     pub measured: f64,
     /// The most that is allowed.
@@ -95,7 +93,6 @@ impl Budget {
 /// A fact of the machine or the run, as a name and a value with its unit.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Fact {
-    /// Name.
     pub name: String,
     /// Value with its unit.
     pub value: String,

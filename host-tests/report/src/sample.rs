@@ -25,11 +25,9 @@ pub struct Sampled {
 pub struct Sample {
     /// The variant, as `hoist/f32/reduced/10000`.
     pub variant: String,
-    /// The run.
     pub run: String,
     /// Machines: draws from 0 on.
     pub draws: u64,
-    /// Their seed.
     pub seed: u64,
     /// Machines on which the loop did not hold.
     pub unstable: u64,

@@ -76,7 +76,6 @@ impl Svg {
         self.element(&[x, y, width, height], text);
     }
 
-    /// A text.
     pub fn text(&mut self, class: &str, x: f64, y: f64, anchor: Anchor, text: &str) {
         let anchor = match anchor {
             Anchor::Start => "start",

@@ -23,7 +23,6 @@ const DAMPING_RATIO: f64 = 0.02;
 pub struct Case {
     /// Inertias, and the twist under rated torque as a share of the gap.
     pub name: &'static str,
-    /// The machine.
     pub machine: TwoMass,
     /// Rated torque (N m).
     pub rated: f64,

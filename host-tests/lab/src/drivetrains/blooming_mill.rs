@@ -50,9 +50,6 @@ pub fn machine() -> Result<Machine, PlantError> {
 
 /// A run for the learners with the spindles uncoupled: motor and pinion stand, with half of the friction, three steps
 /// of the speed in either direction. Spindle heads of a thousandth of the rolls' inertia stay.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn uncoupled(by: &Departure) -> Result<Scenario, PlantError> {
     let [slow, fast] = [0.3, 0.9].map(|share| share * BloomingMill::RATING.speed.0);
     let there = [slow, fast, slow];
@@ -81,9 +78,6 @@ pub fn uncoupled(by: &Departure) -> Result<Scenario, PlantError> {
 }
 
 /// The mill as it is.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let slow = 0.5 * BloomingMill::RATING.speed.0;
     let passes = Scenario {

@@ -34,9 +34,6 @@ pub fn machine() -> Result<Machine, PlantError> {
 }
 
 /// The converter as it is.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let square = RATIO * RATIO;
     let trunnion = Shaft::elastic(3.6e9 / square * by.stiffness).damping(1.0e7 / square).gap(0.3 * by.gap);

@@ -37,7 +37,6 @@ pub struct Pinion {
     pub inertia: f64,
     /// Of the train's stiffness and damping.
     pub stiffness: f64,
-    /// Of its gap.
     pub gap: f64,
     /// Of the motor's torque.
     pub torque: f64,
@@ -71,9 +70,6 @@ fn trunnion(plant: &Body) -> f64 {
 }
 
 /// The drive at rest in the middle of its gaps.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn ring(pinions: &[Pinion; MOTORS]) -> Result<Body, PlantError> {
     let mut train = Train::new();
     for pinion in pinions {
@@ -106,9 +102,6 @@ pub fn machine() -> Result<Machine, PlantError> {
 }
 
 /// The same with four drives that differ.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn with(pinions: &[Pinion; MOTORS]) -> Result<Machine, PlantError> {
     let torque_noise = 0.01 * ConverterRing::RATING.torque.0;
     let mut facts = facts::of_design(&ConverterRing::OBSERVER, 8192, torque_noise);

@@ -62,18 +62,12 @@ pub fn machine() -> Result<Machine, PlantError> {
 
 /// A run for the learners with an empty hook: a step of the speed on 67 m there and back, then a short way there. The
 /// travelling resistance is that of the lighter crane.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn empty_hook(by: &Departure) -> Result<Scenario, PlantError> {
     let speeds = [(SLOW, 33.0), (FAST, 33.0), (SLOW, 35.0), (-SLOW, 37.0), (-FAST, 33.0), (-SLOW, 35.0), (SLOW, 37.0)];
     learning("empty hook", panel::NO_LOAD, scene::HOOK, &speeds, by)
 }
 
 /// The same with a test weight, there and back.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn test_weight(by: &Departure) -> Result<Scenario, PlantError> {
     let speeds = [(SLOW, 33.0), (FAST, 33.0), (SLOW, 35.0), (-SLOW, 37.0), (-FAST, 33.0), (-SLOW, 35.0)];
     learning("test weight", panel::TEST_WEIGHT, scene::HOOK + scene::WEIGHT, &speeds, by)
@@ -116,9 +110,6 @@ fn learning(
 }
 
 /// The crane as it is.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let square = TRAVEL * TRAVEL;
     let plant = Chain::motor((0.2 + BRIDGE * square) * by.motor_inertia)

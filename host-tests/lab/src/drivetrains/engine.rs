@@ -37,9 +37,6 @@ pub struct Options {
 const QUICK: f64 = 2.0;
 
 /// Flash and RAM of the image that holds no drive, on a board.
-///
-/// # Errors
-/// What the build or the image says.
 pub fn empty(board: Facts, says: &dyn Fn(&str)) -> Result<(u64, u64), Box<dyn Error>> {
     let building = |line: &str| says(&format!("no drive, {}: building: {}", board.core, line.trim()));
     let image = build("empty/f32/none/10000", board, Program::ControlLoop, building)?;

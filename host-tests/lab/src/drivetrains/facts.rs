@@ -148,7 +148,6 @@ pub fn notes(machine: &Machine, quick: bool) -> Vec<String> {
     notes.map(|note| (*note).to_owned()).collect()
 }
 
-/// A fact by its name.
 pub fn fact(name: &str, value: String) -> Fact {
     Fact { name: name.into(), value }
 }

@@ -123,9 +123,6 @@ pub fn machine() -> Result<Machine, PlantError> {
 
 /// The hoist as it is: one lift with the weight on the hook held, up at rated speed and down at half of it. The rope
 /// has its length at the top.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let up = Hoist::<10_000>::RATING.speed.0;
     let lift = lift("a lift", by, None, &[(0.2, up), (3.0, -0.5 * up)], 8.0)?;
@@ -134,9 +131,6 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
 
 /// Runs for the learners, with known loads: an empty hook and a test weight, up and down at rated speed, then steps of
 /// the speed.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn test_lifts(by: &Departure) -> Result<Vec<Scenario>, PlantError> {
     let up = Hoist::<10_000>::RATING.speed.0;
     let (fall, steps, lasts) = (0.45 * up, 33.5, 3.5);
@@ -151,9 +145,6 @@ pub fn test_lifts(by: &Departure) -> Result<Vec<Scenario>, PlantError> {
 }
 
 /// A load (kg) from 30 m to 5 m of rope at rated speed, named for the learners.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn whole_height(mass: f64) -> Result<Machine, PlantError> {
     let up = Hoist::<10_000>::RATING.speed.0;
     let by = Departure { load: mass / MASS, rope: 5.0 / LENGTH, ..Departure::NONE };

@@ -34,9 +34,6 @@ pub enum Variants<'a> {
 
 impl Plan {
     /// The run of some variants of a scene.
-    ///
-    /// # Errors
-    /// A sentence: no such scene, or no such variant.
     pub fn of(scene: &str, variants: Variants<'_>, quick: bool) -> Result<Self, String> {
         let Some((_, machine)) = SCENES.iter().find(|(name, _)| *name == scene) else {
             let names: Vec<String> = SCENES.iter().map(|(name, _)| format!("`{name}`")).collect();

@@ -36,9 +36,6 @@ pub fn machine() -> Result<Machine, PlantError> {
 }
 
 /// The drive as it is.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let (sun, planet, ring, module) = (20.0, 35.0, 90.0, 0.004);
     // A planet rolls in the held ring.

@@ -71,9 +71,6 @@ fn shaft(press: &Body) -> f64 {
 }
 
 /// The press at its top, with an inertia more on the flywheel (kg m2).
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn press(added: f64) -> Result<Body, PlantError> {
     let motion = Train::new()
         .coordinate(Coordinate::new(4.8 + added))

@@ -78,9 +78,6 @@ pub fn machine() -> Result<Machine, PlantError> {
 }
 
 /// The winch as it is.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let (mass, weight) = (SKIP * by.load * TRAVEL * TRAVEL, WEIGHT * by.load);
     let [motor_shaft, elastic] = [MOTOR_SHAFT, ROPE].map(|stiffness| stiffness * by.stiffness);

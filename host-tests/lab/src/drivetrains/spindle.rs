@@ -46,9 +46,6 @@ pub fn machine() -> Result<Machine, PlantError> {
 }
 
 /// The spindle as it is.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let spindle_with = |program: LoadProgram| {
         let shaft = Shaft::elastic(stiffness() * by.stiffness).damping(0.3);

@@ -34,9 +34,6 @@ pub fn machine() -> Result<Machine, PlantError> {
 }
 
 /// The stand as it is.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let stand = |program: LoadProgram| {
         Chain::motor(3000.0 * by.motor_inertia)

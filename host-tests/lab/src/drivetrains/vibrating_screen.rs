@@ -16,7 +16,6 @@ use driveline_solver::plant::{LoadProgram, PlantError};
 /// The exciter among the coordinates; before it the motor, behind it box and frame.
 const EXCITER: usize = 1;
 
-/// The box.
 pub const BOX: usize = 2;
 
 /// The cardan shaft among the links.

@@ -44,7 +44,6 @@ impl Kind {
         }
     }
 
-    /// Its constants.
     pub const fn constants(self) -> &'static Constants {
         const SETS: [&Constants; 2] = [&DIESEL, &TURBINE];
         SETS[self as usize]

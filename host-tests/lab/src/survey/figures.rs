@@ -43,7 +43,6 @@ pub struct Gentle {
 /// A drivetrain in all its variants.
 #[derive(Clone, Debug, Serialize)]
 pub struct SceneFigures {
-    /// Its name.
     pub name: String,
     /// Its kind.
     pub summary: String,
@@ -144,7 +143,6 @@ pub struct Survey {
 }
 
 impl Survey {
-    /// The failures in a place.
     pub fn failures_in(&self, place: &str) -> impl Iterator<Item = &Failure> {
         self.failures.iter().filter(move |failure| failure.place == place)
     }

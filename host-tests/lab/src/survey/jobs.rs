@@ -28,7 +28,6 @@ use driveline_report::{Sample, Variant};
 pub struct Job {
     /// The scene or the part that it belongs to.
     pub place: String,
-    /// Its name.
     pub name: String,
     /// The core whose images it builds; empty for none.
     pub core: &'static str,
@@ -53,7 +52,6 @@ pub enum Piece {
     Commissioned(Box<Verdict>),
     /// A rotor of the scene of that name.
     Balanced(String, Box<balancing::Ran>),
-    /// Cases.
     Cases(Vec<Case>),
 }
 

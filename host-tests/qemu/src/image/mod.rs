@@ -87,7 +87,6 @@ pub struct Image {
     pub path: PathBuf,
     /// The variant that it holds.
     pub variant: String,
-    /// The board that it is for.
     pub board: Facts,
     /// The binary.
     pub program: Program,

@@ -4,7 +4,6 @@ use driveline_report::{
     Budget, Deviation, Fact, Instructions, Mark, Report, Sample, Sampled, Signal, Trajectory, Variant,
 };
 
-/// The report.
 pub fn report() -> Report {
     let fact = |name: &str, value: &str| Fact { name: name.into(), value: value.into() };
     Report {

@@ -1,8 +1,8 @@
 //! Stiff and extreme cases.
 
 use super::{Section, kept};
-use crate::survey::Survey;
 use crate::survey::CASES;
+use crate::survey::Survey;
 use driveline_report::Table;
 
 /// Published and made-up cases, each beside its reference.

@@ -96,7 +96,6 @@ pub enum Variation {
         frequency: f64,
         /// Of the stiffness; together below it.
         stiffness: Vec<Harmonic>,
-        /// Of the error.
         error: Vec<Harmonic>,
     },
 }

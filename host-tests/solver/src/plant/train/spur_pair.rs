@@ -15,7 +15,6 @@
 
 use super::{Coordinate, Link, Source, Train, Variation};
 
-/// A bearing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpurBearing {
     /// kg.
@@ -45,7 +44,6 @@ pub struct SpurWheel {
     pub bearings: [SpurBearing; 2],
 }
 
-/// The pair.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpurPair {
     /// The driving wheel.
@@ -65,7 +63,6 @@ pub struct SpurPair {
 }
 
 impl SpurPair {
-    /// Coordinates.
     pub const COORDINATES: usize = 14;
     /// Link of the mesh. Of each wheel follow the shaft along Y, along X, and the bearings, each along Y and X.
     pub const MESH: usize = 0;
