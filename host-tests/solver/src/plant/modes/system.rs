@@ -21,9 +21,6 @@ pub enum SystemError {
     /// A node that two gears drive, or gears in a ring.
     #[error("the gears tie node {node} more than once: expected gears to form trees")]
     GearLoop { node: usize },
-    /// Gears or shafts that do not form one chain from the drive on.
-    #[error("the system branches, closes or breaks off at node {node}: expected one chain")]
-    NotAChain { node: usize },
 }
 
 /// An elastic link: between two nodes, or from one to the ground.
