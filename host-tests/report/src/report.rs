@@ -1,14 +1,11 @@
 //! The report of a run, whole.
 
-use serde::{Deserialize, Serialize};
-
 use crate::results::{Budget, Fact, Variant};
 use crate::sample::Sample;
 use crate::trajectory::Trajectory;
 
 /// Everything that a run has to say.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
     /// The scene's name: `hoist`.
     pub scene: String,

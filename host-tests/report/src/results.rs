@@ -1,10 +1,10 @@
 //! The figures of a run: what each variant got wrong and what it cost.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// Root mean square and largest absolute value of an error, as a fraction: of the peak for a torque, of the rated speed
 /// for a speed. A value that is not finite stands for an estimate that diverged; JSON writes it as `null`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Deviation {
     /// Root mean square over the run.
     #[serde(with = "diverged_as_null")]
@@ -15,7 +15,7 @@ pub struct Deviation {
 }
 
 /// Instructions of one tick over the inputs of the run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Instructions {
     /// Fewest.
     pub min: u64,
@@ -25,7 +25,7 @@ pub struct Instructions {
 }
 
 /// One variant of a scene: how wrong it was and what it cost. The fields are those that `run --json` prints.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Variant {
     /// Number type: `f32` or `fixed`.
     pub number: String,
@@ -71,7 +71,7 @@ impl Variant {
 }
 
 /// A budget and what was measured against it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Budget {
     /// Bounded quantity: `instructions, exact step, m4f f32`.
     pub name: String,
@@ -91,22 +91,18 @@ impl Budget {
 }
 
 /// A fact of the machine or the run, as a name and a value with its unit.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Fact {
     pub name: String,
     /// Value with its unit.
     pub value: String,
 }
 
-/// JSON has no infinity: what diverged is `null`, and comes back as infinite.
+/// JSON has no infinity: what diverged is `null`.
 pub(super) mod diverged_as_null {
-    use serde::{Deserialize, Deserializer, Serializer};
+    use serde::Serializer;
 
     pub fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
         if value.is_finite() { serializer.serialize_f64(*value) } else { serializer.serialize_none() }
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-        Ok(Option::<f64>::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
     }
 }
