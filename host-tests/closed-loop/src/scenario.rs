@@ -55,6 +55,14 @@ pub struct Scenario {
     pub law: Option<Law>,
 }
 
+impl Scenario {
+    /// A run that counts, without torque at first and without a law; its actions and duration are put in.
+    pub fn of(name: &'static str, plant: impl Into<Body>) -> Self {
+        let (actions, marks) = (Vec::new(), Vec::new());
+        Self { name, plant: plant.into(), actions, held: 0.0, duration: 0.0, counted: true, marks, law: None }
+    }
+}
+
 /// A scene's machine, as the report sees it.
 pub struct Machine {
     /// The scene's name.

@@ -141,8 +141,6 @@ impl FileCase {
         let Self { machine, designs, times: [.., slower, end], .. } = self;
         let speed = machine.limits.speed;
         let run = Scenario {
-            name: "run-up, a load that comes and goes, slower",
-            plant: self.plant(by)?,
             held: designs.two.gravity_torque * by.load,
             actions: vec![
                 (RELEASE, Action::Release),
@@ -150,9 +148,7 @@ impl FileCase {
                 (*slower, Action::Setpoint(0.5 * speed)),
             ],
             duration: *end,
-            counted: true,
-            marks: Vec::new(),
-            law: None,
+            ..Scenario::of("run-up, a load that comes and goes, slower", self.plant(by)?)
         };
         let last = machine.chain.masses().len() - 1;
         Ok(Machine {
