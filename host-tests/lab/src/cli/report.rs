@@ -18,8 +18,8 @@ use driveline_qemu::setup::Need;
 /// Run every scene in all its variants, and every stiff or extreme case, and write all tables in Markdown.
 ///
 /// Installs what is missing (as `setup` does), builds the firmware that is not built yet, runs the closed loops side by
-/// side on the cores, and writes a page of Markdown: errors beside the aims, the front of error against instructions,
-/// flash and RAM, dynamic factors, verdicts on every case. A failure is reported in its place and affects nothing else.
+/// side on the cores, and writes a page of Markdown: errors beside the aims, instructions, flash and RAM, dynamic
+/// factors, verdicts on every case. A failure is reported in its place and affects nothing else.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo lab report

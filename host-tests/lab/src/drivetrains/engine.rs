@@ -22,8 +22,6 @@ pub struct Ran {
     pub variant: Variant,
     /// One trace a scenario.
     pub traces: Vec<Trace>,
-    /// Bytes of code that a tick reaches.
-    pub tick_code: u64,
 }
 
 /// Purpose of a run.
@@ -102,7 +100,7 @@ pub fn run(
         bit_exact,
         ticks: moments().count() as u64,
     };
-    Ok(Ran { variant, traces, tick_code: contents.tick_code })
+    Ok(Ran { variant, traces })
 }
 
 /// Least and most cycles of the tick on the path that has the most.

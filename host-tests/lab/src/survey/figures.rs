@@ -18,8 +18,6 @@ pub struct Run {
     pub chosen: bool,
     /// Shaft torque, run by run.
     pub factors: Vec<Factor>,
-    /// Bytes of code that a tick reaches.
-    pub tick_code: u64,
 }
 
 impl Run {
@@ -56,16 +54,6 @@ impl SceneFigures {
     /// The variants of the design's choice.
     pub fn chosen(&self) -> impl Iterator<Item = &Run> {
         self.runs.iter().filter(|run| run.chosen)
-    }
-
-    /// The variants whose flash no other of the same number and core and rate is below.
-    pub fn smallest(&self) -> Vec<&Run> {
-        let like = |a: &Variant, b: &Variant| (&a.number, &a.core, a.rate_hz) == (&b.number, &b.core, b.rate_hz);
-        let least = |run: &&Run| {
-            let others = self.runs.iter().filter(|other| like(&other.variant, &run.variant));
-            others.map(|other| other.variant.flash_bytes).min() == Some(run.variant.flash_bytes)
-        };
-        self.runs.iter().filter(least).collect()
     }
 
     /// Peaks of the shaft torque over those of the plain speed loop with the same number, core and rate, of a variant

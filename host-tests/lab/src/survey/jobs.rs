@@ -281,7 +281,7 @@ fn drivetrain(scene: &'static str, build: Build, candidate: Candidate, seconds: 
         let aim = Aim::of(&machine, &ran.traces);
         let runs = ran.traces.iter().zip(&machine.scenarios);
         let factors = runs.map(|(trace, scenario)| Factor::of(&machine, scenario, &trace.moments)).collect();
-        let run = Run { variant: ran.variant, chosen, factors, tick_code: ran.tick_code };
+        let run = Run { variant: ran.variant, chosen, factors };
         Ok(Piece::Run(scene.to_owned(), aim, Box::new(run)))
     };
     let ticks = seconds * f64::from(candidate.rate_hz());

@@ -4,12 +4,10 @@ mod balancing;
 mod cases;
 mod commissioning;
 mod factors;
-mod front;
 mod generator;
 mod markdown;
 mod scenes;
 mod section;
-mod sizes;
 
 use section::{Section, kept};
 
@@ -35,10 +33,9 @@ fn real(survey: &Survey) -> Section {
 
 /// Facts and tables in Markdown, as a page of the book.
 pub fn survey_markdown(survey: &Survey) -> String {
-    let mut sections = vec![real(survey), scenes::overview(survey), front::section(survey)];
+    let mut sections = vec![real(survey), scenes::overview(survey)];
     sections.extend(survey.scenes.iter().map(|scene| scenes::section(survey, scene)));
     sections.extend([
-        sizes::section(survey),
         factors::section(survey),
         cases::section(survey),
         generator::section(survey),

@@ -22,7 +22,7 @@ pub fn survey(error: f64) -> Survey {
             let chosen = observer == "slack";
             let factor = |scenario: &str, opened| Factor { scenario: scenario.into(), opened, peak, rigid: 50.0 };
             let factors = vec![factor("reversal", true), factor("steady", false)];
-            Run { variant, chosen, factors, tick_code: 512 }
+            Run { variant, chosen, factors }
         })
     };
     let scene = |name: &str| SceneFigures {
