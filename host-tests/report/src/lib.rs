@@ -18,12 +18,12 @@
 
 pub mod chart;
 pub mod format;
-pub mod page;
+mod page;
 mod report;
 mod results;
 mod sample;
 mod sheet;
-pub mod svg;
+mod svg;
 mod table;
 mod trajectory;
 

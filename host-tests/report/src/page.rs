@@ -1,7 +1,7 @@
 //! Puts the report on one page.
 
 mod thinning;
-pub mod view;
+mod view;
 
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment};
