@@ -133,15 +133,6 @@ pub fn test_lifts(by: &Departure) -> Result<Vec<Scenario>, PlantError> {
     ])
 }
 
-/// A load (kg) from 30 m to 5 m of rope at rated speed, named for the learners.
-pub fn whole_height(mass: f64) -> Result<Machine, PlantError> {
-    let up = Hoist::<10_000>::RATING.speed.0;
-    let by = Departure { load: mass / MASS, rope: 5.0 / LENGTH, ..Departure::NONE };
-    // a ramp at either end has the travel of one second at rated speed
-    let stop = 0.2 + 25.0 / (TRAVEL * up);
-    Ok(with(vec![lift("the whole height", &by, Some(mass), &[(0.2, up), (stop, 0.0)], stop + 3.0)?]))
-}
-
 /// A load that hangs on the brake, and its speeds from the times on that they are set at.
 fn lift(
     name: &'static str,
