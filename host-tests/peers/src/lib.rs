@@ -1,5 +1,4 @@
 #![no_std]
-#![warn(missing_docs)]
 //! Other observers on the signals of driveline's scenes.
 //!
 //! Each is an observer behind one trait, [`Replayed`]: angle and torque of a tick in, shaft torque and load speed out.
