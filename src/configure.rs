@@ -191,7 +191,7 @@ where
     const LOOP: LoopPart = A::LOOP.and(&B::LOOP).and(&C::LOOP);
 }
 
-impl<M, N, O, G, F, B, const SEAL: i32> Configure<M, N> for Drive<N, O, G, F, B, SEAL>
+impl<M, N, O, G, F, B> Configure<M, N> for Drive<N, O, G, F, B>
 where
     M: Machine,
     N: Number,
@@ -216,7 +216,7 @@ where
     };
 }
 
-impl<N, O, G, F, B, const SEAL: i32> Drive<N, O, G, F, B, SEAL>
+impl<N, O, G, F, B> Drive<N, O, G, F, B>
 where
     N: Number,
     O: Part<N, State: Observer<N>>,

@@ -50,7 +50,7 @@ mod tolerance;
 mod torque_curve;
 mod tuning;
 
-pub use approximate::{ApproximateStep, Fidelity, SemiImplicitStep, StepChoice};
+pub use approximate::{Fidelity, SemiImplicitStep, StepChoice};
 pub use backlash::{BacklashDesign, BacklashTuning};
 pub use backlash_takeup::{BacklashTakeUpDesign, BacklashTakeUpTuning};
 pub use barred::{BarredSpeeds, USUAL_MARGIN};

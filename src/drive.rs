@@ -89,39 +89,29 @@ pub struct Config<N: Number, O, G = (), F = (), B = ()> {
 }
 
 /// The state of a drive.
-///
-/// `SEAL` is for a caller in another language that owns the memory: a positive number by which [`Drive::seal`] finds
-/// memory that was not initialised.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 // In this order: the compiler's own puts a measurement's tables in front.
 #[repr(C)]
-pub struct Drive<N, O: Part<N>, G: Part<N> = (), F: Part<N> = (), B: Part<N> = (), const SEAL: i32 = 0> {
+pub struct Drive<N, O: Part<N>, G: Part<N> = (), F: Part<N> = (), B: Part<N> = ()> {
     balancer: B::State,
     observer: O::State,
     governor: G::State,
     /// Substitute for an implausible torque.
     commanded: N,
-    /// `SEAL` and the ticks without a usable angle, less those with one; while the angle is lost
-    /// [`NONE_YET`](Self::NONE_YET) or [`ONE`](Self::ONE).
+    /// Ticks without a usable angle, less those with one; while the angle is lost [`NONE_YET`] or [`ONE`].
     coasted: i32,
     /// The last: a field behind its tables would be beyond the reach of a load.
     fluctuation: F::State,
 }
 
-/// What the seal in a drive's memory shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Seal {
-    /// A drive that has its angle.
-    Sighted,
-    /// A drive that has lost its angle.
-    Lost,
-    /// No drive: the memory was not initialised.
-    Broken,
-}
+/// The angle is lost, and none has been seen since.
+const NONE_YET: i32 = -2;
 
-impl<N, O, G, F, B, const SEAL: i32> Drive<N, O, G, F, B, SEAL>
+/// The angle is lost, and one has been seen that differs from the last.
+const ONE: i32 = -1;
+
+impl<N, O, G, F, B> Drive<N, O, G, F, B>
 where
     N: Number,
     O: Part<N, State: Observer<N>>,
@@ -129,12 +119,6 @@ where
     F: Part<N, State: Fluctuation<N>>,
     B: Part<N, State: Balancer<N>>,
 {
-    /// The angle is lost, and none has been seen since.
-    const NONE_YET: i32 = SEAL - 2;
-
-    /// The angle is lost, and one has been seen that differs from the last.
-    const ONE: i32 = SEAL - 1;
-
     /// A drive whose machine stands still at `angle` (2^-32 turn), without torque in its shaft.
     pub fn new(config: &ConfigOf<Self>, angle: u32) -> Self {
         Drive {
@@ -143,7 +127,7 @@ where
             governor: Default::default(),
             balancer: Default::default(),
             commanded: N::ZERO,
-            coasted: SEAL,
+            coasted: 0,
         }
     }
 
@@ -152,7 +136,7 @@ where
     /// Where ticks did not run in between, use [`Drive::tick_after`].
     #[inline(always)]
     pub fn tick(&mut self, config: &ConfigOf<Self>, sample: &Sample<N>) -> Command<N> {
-        if self.coasted < SEAL {
+        if self.coasted < 0 {
             return self.reacquire(config, sample);
         }
         let (faults, applied) = self.observe(config, sample, true);
@@ -176,7 +160,7 @@ where
         self.observer.restart(&config.observer, angle, command.torque, N::ZERO);
         self.governor.start(&config.governor, &self.estimate(config), command.torque);
         self.commanded = command.torque;
-        self.coasted = SEAL;
+        self.coasted = 0;
         command
     }
 
@@ -184,25 +168,6 @@ where
     #[inline(always)]
     pub fn estimate(&self, config: &ConfigOf<Self>) -> Estimate<N> {
         self.observer.estimate(&config.observer)
-    }
-
-    /// Where the seal lies in the memory of a drive (bytes): four of them, for [`seal`](Self::seal).
-    pub const SEAL_AT: usize = core::mem::offset_of!(Self, coasted);
-
-    /// What the seal in the memory of a drive with these constants shows.
-    ///
-    /// Of the 2^32 words as many are seals as ticks may coast, and three more. With a `SEAL` of 0, memory of zeros is
-    /// one of them.
-    #[inline(always)]
-    pub fn seal(config: &ConfigOf<Self>, word: u32) -> Seal {
-        let coasted = word.wrapping_sub(SEAL as u32);
-        if coasted.wrapping_add(2) > config.limits.max_coast.saturating_add(2) {
-            Seal::Broken
-        } else if (coasted as i32) < 0 {
-            Seal::Lost
-        } else {
-            Seal::Sighted
-        }
     }
 
     /// The observer.
@@ -292,12 +257,12 @@ where
                 Faults::ANGLE_JUMP
             };
             self.observer.coast(predicted, sample.angle);
-            let more = (coasted.wrapping_sub(SEAL) as u32) < limits.max_coast;
-            self.coasted = if more { coasted.wrapping_add(1) } else { Self::NONE_YET };
+            let more = (coasted as u32) < limits.max_coast;
+            self.coasted = if more { coasted.wrapping_add(1) } else { NONE_YET };
             self.fluctuation.disturb();
         } else {
             self.observer.correct(&config.observer, predicted, sample.angle);
-            if coasted != SEAL {
+            if coasted != 0 {
                 self.coasted = coasted - 1;
             }
         }
@@ -339,10 +304,10 @@ where
         let speed = <StateOf<O, N>>::speed_of_turn(&config.observer, turned);
         if sample.angle == last {
             faults = Faults::ANGLE_FROZEN;
-            self.coasted = Self::NONE_YET;
-        } else if self.coasted == Self::NONE_YET || speed.exceeds(limits.setpoint + limits.setpoint) {
+            self.coasted = NONE_YET;
+        } else if self.coasted == NONE_YET || speed.exceeds(limits.setpoint + limits.setpoint) {
             self.observer.resync(sample.angle);
-            self.coasted = Self::ONE;
+            self.coasted = ONE;
         } else {
             let count =
                 <StateOf<O, N>>::speed_of_turn(&config.observer, N::ZERO.less_turn(limits.frozen_turn)).magnitude();
@@ -352,7 +317,7 @@ where
             } else {
                 self.observer.resync(sample.angle);
             }
-            self.coasted = SEAL.wrapping_add(limits.max_coast as i32) & i32::MAX;
+            self.coasted = limits.max_coast as i32 & i32::MAX;
         }
         self.release(config, faults)
     }

@@ -91,8 +91,8 @@ impl Rating {
 /// A machine with its motor, its encoder and its tick rate: four constants, and those that follow from them.
 ///
 /// Every default states its derivation. Name a constant to override it; constants derived from it follow. A constant
-/// that no part of the drive uses is never evaluated. The defaults have been compared with the 19 machines of the
-/// project's firmware, each tuned on a full simulation; "n of 19" says how many of them keep the default.
+/// that no part of the drive uses is never evaluated. Most of the 19 machines of the project's firmware, each
+/// tuned on a full simulation, keep the defaults of torque accuracy, gear and screening.
 pub trait Machine {
     /// The machine, from the motor to the load.
     const CHAIN: Chain;
@@ -121,7 +121,7 @@ pub trait Machine {
 
     /// How torque and load torque wander: [`Rating::disturbance`].
     ///
-    /// The torque's 1 % is kept by 13 of 19. The load's wandering is the tuning of the observer: loads that hardly
+    /// The load's wandering is the tuning of the observer: loads that hardly
     /// change take 100 s instead of 10 s, loads that come at once take 1 s.
     const DISTURBANCE: Disturbance = Self::RATING.disturbance();
     /// The observer of two masses, from machine, rate, encoder and disturbance.
@@ -134,8 +134,7 @@ pub trait Machine {
     const BACKLASH_OBSERVER: BacklashDesign =
         Self::TWO_MASS.backlash_observer(Self::RATE, Self::ENCODER, Self::DISTURBANCE, Self::BACKLASH_TUNING);
     /// The losses before the shaft as the observer has to know them: their efficiency by [`Chain::losses`], the inertia
-    /// on the motor side, and eight counts of the encoder by which the motor can turn while friction holds the gear. 3
-    /// of 3 machines with a lossy gear keep it.
+    /// on the motor side, and eight counts of the encoder by which the motor can turn while friction holds the gear.
     const GEAR: Gear = Gear {
         efficiency: Self::CHAIN.losses().before[0],
         inertia: Self::TWO_MASS.motor_inertia,
@@ -171,8 +170,7 @@ pub trait Machine {
 
     /// Plausibility limits of a sample: [`Rating::screening`].
     ///
-    /// Torque and setpoint are kept by 15 of 19, the innovation by 16 of 19. With an encoder of more than 2^17 counts
-    /// a smaller one is found out sooner.
+    /// With an encoder of more than 2^17 counts a smaller innovation is found out sooner.
     const SCREENING: Screening = Self::RATING.screening(Self::ENCODER, Self::RATE);
     /// Bases of fixed point: [`Rating::bases`] with observers, gear and speed loop.
     ///

@@ -26,50 +26,6 @@ pub struct Fidelity {
     pub stable: bool,
 }
 
-/// A step in increments: `delta += n11 delta + n12 v + g1 s`, `v += n21 delta + n22 v + g2 s`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct ApproximateStep {
-    /// Twist from twist (1), less one.
-    pub n11: f64,
-    /// Twist from twist rate (s).
-    pub n12: f64,
-    /// Twist from forcing (s2).
-    pub g1: f64,
-    /// Twist rate from twist (1/s).
-    pub n21: f64,
-    /// Twist rate from twist rate (1), less one.
-    pub n22: f64,
-    /// Twist rate from forcing (s).
-    pub g2: f64,
-    /// How far it is from the exact step.
-    pub fidelity: Fidelity,
-}
-
-impl ApproximateStep {
-    /// Forward Euler: unstable for an undamped shaft at any rate.
-    #[must_use]
-    pub const fn forward_euler(machine: &TwoMass, period: f64) -> Self {
-        let (w2, two_a) = rates(machine);
-        Self::judged([0.0, period, 0.0, -w2 * period, -two_a * period, period], machine, period)
-    }
-
-    /// Trapezoidal rule (Tustin): stable at any rate, its frequency too low.
-    #[must_use]
-    pub const fn tustin(machine: &TwoMass, period: f64) -> Self {
-        let (w2, two_a) = rates(machine);
-        let half = 0.5 * period;
-        let over = period / (1.0 + half * two_a + half * half * w2);
-        let n = [-over * w2 * half, over, over * half, -over * w2, -over * (w2 * half + two_a), over];
-        Self::judged(n, machine, period)
-    }
-
-    const fn judged(n: [f64; 6], machine: &TwoMass, period: f64) -> Self {
-        let [n11, n12, g1, n21, n22, g2] = n;
-        Self { n11, n12, g1, n21, n22, g2, fidelity: Fidelity::of([n11, n12, n21, n22], machine, period) }
-    }
-}
-
 /// Semi-implicit Euler: `v += dt s - stiffness_dt delta - damping_dt v`, then `delta += dt v` with the new twist rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

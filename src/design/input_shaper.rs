@@ -60,18 +60,6 @@ impl InputShaperDesign {
     /// the length. The speed loop that holds the trolley changes it by the same share at both lengths, if its bandwidth
     /// is well above the swing's frequency.
     ///
-    /// # Panics
-    /// As [`new`](Self::new).
-    #[must_use]
-    pub const fn at_rope(self, from: Length, to: Length) -> Self {
-        match self.try_at_rope(from, to) {
-            Ok(design) => design,
-            Err(error) => error.stop(),
-        }
-    }
-
-    /// [`at_rope`](Self::at_rope), with an error instead of a panic.
-    ///
     /// # Errors
     /// [`Error::Shaper`].
     pub const fn try_at_rope(self, from: Length, to: Length) -> Result<Self, Error> {

@@ -69,12 +69,6 @@ impl<const N: usize, const M: usize> Kalman<N, M> {
         }
         Ok(Self { gain, prior, posterior, innovation, poles, spectral_radius })
     }
-
-    /// Predictor gain `F K`: the correction carried on to the next tick.
-    #[must_use]
-    pub const fn predictor_gain(&self, f: &Matrix<N, N>) -> Matrix<N, M> {
-        f.times(&self.gain)
-    }
 }
 
 /// The prior covariance, solved with every state in its own unit.

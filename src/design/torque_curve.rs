@@ -2,7 +2,6 @@
 
 use super::Error;
 use crate::machine::{Characteristic, Speed};
-use crate::math::sqrt;
 
 /// Largest torque against speed, by straight lines through `K` points; level beyond the last.
 ///
@@ -55,7 +54,7 @@ impl<const K: usize> TorqueCurve<K> {
     /// const ENGINE: Characteristic =
     ///     Characteristic::Combustion(Combustion::new(CombustionType::Spark, RATED, Speed(70.0), Speed(210.0)));
     /// const LIMIT: TorqueCurve<5> = TorqueCurve::of(&ENGINE, [0.0, 70.0, 135.0, 200.0, 210.0]);
-    /// assert!(LIMIT.interpolation_error(&ENGINE) < 0.03 * 1500.0);
+    /// assert_eq!(LIMIT.points()[3], [200.0, 1500.0]);
     /// ```
     ///
     /// # Panics
@@ -87,37 +86,6 @@ impl<const K: usize> TorqueCurve<K> {
         Self::try_through(points)
     }
 
-    /// Bound of the difference to the prime mover (N m) that the curve was made [`of`](Self::of), from its first point
-    /// to its last.
-    ///
-    /// A line between two points a distance h apart differs by at most `h^2/8` of the largest second derivative
-    /// between them. A corner within, of a step d in slope at the distances x and h - x, adds `d x (h - x)/h`. Both
-    /// are in closed form for every prime mover.
-    #[must_use]
-    pub const fn interpolation_error(&self, mover: &Characteristic) -> f64 {
-        let mut largest = 0.0;
-        let mut k = 1;
-        while k < K {
-            let (from, to) = (self.points[k - 1][0], self.points[k][0]);
-            let length = to - from;
-            let mut bound = 0.125 * length * length * curvature(mover, from, to);
-            let corners = corners(mover);
-            let mut corner = 0;
-            while corner < corners.len() {
-                let (at, step) = corners[corner];
-                if at > from && at < to {
-                    bound += step.abs() * (at - from) * (to - at) / length;
-                }
-                corner += 1;
-            }
-            if bound > largest {
-                largest = bound;
-            }
-            k += 1;
-        }
-        largest
-    }
-
     /// The curve with no more than `power` (W) at each of its points.
     #[must_use]
     pub const fn with_power_limit(mut self, power: f64) -> Self {
@@ -137,74 +105,4 @@ impl<const K: usize> TorqueCurve<K> {
     pub const fn points(&self) -> &[[f64; 2]; K] {
         &self.points
     }
-}
-
-/// Largest second derivative of a characteristic (N m s2/rad2) between two speeds, either way.
-const fn curvature(mover: &Characteristic, from: f64, to: f64) -> f64 {
-    match mover {
-        Characteristic::Line(_) | Characteristic::Shunt(_) => 0.0,
-        Characteristic::Parabola(parabola) => 2.0 * parabola.square.abs(),
-        Characteristic::Series(motor) => {
-            // It falls with the speed.
-            let current = motor.current(Speed(from));
-            6.0 * motor.flux
-                * (motor.flux * current / motor.voltage)
-                * (motor.flux * current / motor.voltage)
-                * (current * current)
-        }
-        Characteristic::Induction(motor) => {
-            // The torque is 2 tau_A s_A Re 1/(s + i s_A), so that the third derivative, as Re 1/(s + i s_A)^4, is zero
-            // at s/s_A = cot of odd eighths of pi: +-(sqrt 2 + 1), +-(sqrt 2 - 1).
-            let root = sqrt(2.0);
-            let a = motor.breakdown_slip;
-            let (low, high) = (1.0 - to / motor.synchronous, 1.0 - from / motor.synchronous);
-            let places = [low, high, a * (root + 1.0), a * (root - 1.0), a * (1.0 - root), -a * (root + 1.0)];
-            let mut largest = 0.0;
-            let mut k = 0;
-            while k < places.len() {
-                let s = places[k];
-                if s >= low && s <= high {
-                    let sum = s * s + a * a;
-                    let bend = (s * (s * s - 3.0 * a * a) / (sum * sum * sum)).abs();
-                    if bend > largest {
-                        largest = bend;
-                    }
-                }
-                k += 1;
-            }
-            4.0 * motor.breakdown * a * largest / (motor.synchronous * motor.synchronous)
-        }
-        Characteristic::Combustion(engine) => {
-            if to > engine.idle && from < engine.rated_speed {
-                2.0 * engine.full_load()[2].abs()
-            } else {
-                0.0
-            }
-        }
-    }
-}
-
-/// Corners of the limit by a characteristic: speed (rad/s), step of the slope (N m s/rad). A speed that is no number is
-/// none.
-const fn corners(mover: &Characteristic) -> [(f64, f64); 3] {
-    const NONE: (f64, f64) = (f64::NAN, 0.0);
-    let zeros = match mover {
-        Characteristic::Line(line) => [line.stall / line.slope, f64::NAN],
-        Characteristic::Parabola(parabola) => {
-            let (a, b, c) = (parabola.constant, parabola.linear, parabola.square);
-            let root = sqrt(b * b - 4.0 * a * c);
-            let sum = -0.5 * if b < 0.0 { b - root } else { b + root };
-            [a / sum, sum / c]
-        }
-        Characteristic::Shunt(motor) => [motor.no_load_speed().0, f64::NAN],
-        Characteristic::Series(_) => [f64::NAN; 2],
-        Characteristic::Induction(motor) => [motor.synchronous, f64::NAN],
-        Characteristic::Combustion(engine) => {
-            let [_, b, c] = engine.full_load();
-            let governed = engine.slope(Speed(engine.rated_speed));
-            let (idle, rated) = (b + 2.0 * c * engine.idle, governed - b - 2.0 * c * engine.rated_speed);
-            return [(engine.idle, idle), (engine.rated_speed, rated), (engine.no_load, governed)];
-        }
-    };
-    [(zeros[0], mover.slope(Speed(zeros[0]))), (zeros[1], mover.slope(Speed(zeros[1]))), NONE]
 }

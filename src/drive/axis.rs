@@ -1,6 +1,6 @@
 //! Further ticks of a drive: one without an angle, ticks that did not run, and starting while the machine turns.
 
-use super::{ConfigOf, Drive};
+use super::{ConfigOf, Drive, NONE_YET};
 use crate::balancing::Balancer;
 use crate::fault::Faults;
 use crate::fluctuation::Fluctuation;
@@ -12,7 +12,7 @@ use crate::sample::{Command, Sample};
 /// The most ticks that did not run which [`Drive::make_up`] predicts: it bounds the time of the call.
 pub const MADE_UP: u32 = 8;
 
-impl<N, O, G, F, B, const SEAL: i32> Drive<N, O, G, F, B, SEAL>
+impl<N, O, G, F, B> Drive<N, O, G, F, B>
 where
     N: Number,
     O: Part<N, State: Observer<N>>,
@@ -26,9 +26,9 @@ where
     /// It raises [`Faults::ANGLE_MISSING`]; after more than the limit of such ticks also
     /// [`Faults::ANGLE_LOST`], and commands no torque. Torque and setpoint are screened as in [`Drive::tick`].
     pub fn coast(&mut self, config: &ConfigOf<Self>, torque: N, setpoint: N) -> Command<N> {
-        if self.coasted < SEAL {
+        if self.coasted < 0 {
             // The search for two angles in a row begins anew.
-            self.coasted = Self::NONE_YET;
+            self.coasted = NONE_YET;
             let torque = if torque.exceeds(config.limits.torque) { Faults::TORQUE } else { Faults::NONE };
             return self.release(config, torque | Faults::ANGLE_MISSING);
         }
@@ -68,8 +68,8 @@ where
         let limits = &config.limits;
         self.fluctuation.disturb();
         self.balancer.missed(Faults::TICK_MISSED);
-        if self.coasted < SEAL || missed > limits.max_coast {
-            self.coasted = Self::NONE_YET;
+        if self.coasted < 0 || missed > limits.max_coast {
+            self.coasted = NONE_YET;
             return Faults::TICK_MISSED;
         }
         let torque = if torque.exceeds(limits.torque) { self.commanded } else { torque };
@@ -91,6 +91,6 @@ where
 
     /// Whether the angle is lost: [`Faults::ANGLE_LOST`] was raised and no two angles in a row have been found since.
     pub fn is_lost(&self) -> bool {
-        self.coasted < SEAL
+        self.coasted < 0
     }
 }

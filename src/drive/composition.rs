@@ -64,7 +64,7 @@ pub type ConfigOf<D> = <D as Composition>::Config;
 /// The samples of the vibration in a tick, from the type of the drive.
 pub type VibrationOf<D> = <<D as Composition>::Balancer as Balancer<<D as Composition>::Number>>::Vibration;
 
-impl<N, O, G, F, B, const SEAL: i32> Composition for Drive<N, O, G, F, B, SEAL>
+impl<N, O, G, F, B> Composition for Drive<N, O, G, F, B>
 where
     N: Number,
     O: Part<N, State: Observer<N>>,

@@ -8,7 +8,7 @@ use crate::number::{Interpolate, Number, Part};
 use crate::observer::Observer;
 use crate::scheduling::Schedule;
 
-impl<N, O, G, F, B, const SEAL: i32> Drive<N, O, G, F, B, SEAL>
+impl<N, O, G, F, B> Drive<N, O, G, F, B>
 where
     N: Number,
     O: Part<N, State: Observer<N>>,

@@ -1,12 +1,9 @@
-//! Missed ticks that are counted, a lost angle that is found by two others, and the seal.
+//! Missed ticks that are counted, and a lost angle that is found by two others.
 
-use super::{Config, Drive, Limits, Seal};
+use super::{Config, Drive, Limits, NONE_YET, ONE};
 use crate::fault::Faults;
 use crate::observer::{RigidConfig, RigidObserver};
 use crate::sample::Sample;
-
-const NONE_YET: i32 = Drive::<f64, RigidObserver>::NONE_YET;
-const ONE: i32 = Drive::<f64, RigidObserver>::ONE;
 
 /// 2^32 per turn and ticks as units of angle and time, an inertia of one: no encoder, gains of a third.
 const CONFIG: Config<f64, RigidConfig<f64>> = Config {
@@ -73,25 +70,5 @@ fn without_a_governor_the_last_plausible_torque_stands_in() {
     for torque in [f64::NAN, f64::INFINITY, -10.1] {
         let command = drive.tick(&CONFIG, &Sample { angle: 0, torque, setpoint: 0.0 });
         assert_eq!((command.faults, drive.commanded), (Faults::TORQUE, 1.0));
-    }
-}
-
-/// Memory of zeros and of equal bytes is what a caller forgets to initialise.
-#[test]
-fn a_seal_is_whole_in_every_state_of_a_drive_and_in_no_memory_of_equal_bytes() {
-    type Sealed = Drive<f64, RigidObserver, (), (), (), 0x5b00_5b00>;
-    let mut drive = Sealed::new(&CONFIG, 0);
-    assert_eq!(Sealed::seal(&CONFIG, drive.coasted as u32), Seal::Sighted, "new");
-    let mut tick = |angle| {
-        drive.tick(&CONFIG, &Sample { angle, torque: 0.0, setpoint: 0.0 });
-        Sealed::seal(&CONFIG, drive.coasted as u32)
-    };
-    for missed in 0..3 {
-        assert_eq!(tick(70_000), Seal::Sighted, "{missed}");
-    }
-    assert_eq!([tick(70_000), tick(70_000)], [Seal::Lost; 2]);
-    assert_eq!([tick(70_009), tick(70_009)], [Seal::Sighted; 2]);
-    for byte in 0..=255 {
-        assert_eq!(Sealed::seal(&CONFIG, u32::from_ne_bytes([byte; 4])), Seal::Broken, "{byte}");
     }
 }

@@ -165,11 +165,6 @@ impl<N: Number, const MOTORS: usize> LoadSharing<N, MOTORS> {
         self.bias
     }
 
-    /// Whether all motors share equally, or are about to.
-    pub fn is_equal(&self) -> bool {
-        self.equal
-    }
-
     /// Bit k: the angle of motor k was implausible in the last tick, and was left out. All bits but the first: the
     /// first motor's own angle is the likely fault.
     #[inline(always)]
@@ -212,9 +207,9 @@ mod tests {
         let mut sharing = LoadSharing::default();
         assert_eq!(steady(&mut sharing, 44.0, 44.0), [11.0; 4]);
         assert_eq!(steady(&mut sharing, 36.0, 36.0), [9.0; 4]);
-        assert!(sharing.is_equal());
+        assert!(sharing.equal);
         assert_eq!(steady(&mut sharing, 28.0, 28.0), [16.0, -2.0, 16.0, -2.0]);
-        assert!(!sharing.is_equal());
+        assert!(!sharing.equal);
         assert_eq!(steady(&mut sharing, 36.0, 36.0), [20.0, -2.0, 20.0, -2.0]);
     }
 
@@ -249,7 +244,7 @@ mod tests {
             assert!(torques.iter().all(|torque| torque.abs() <= 20.0), "{tick}");
             last = sharing.bias();
         }
-        assert!(sharing.is_equal());
+        assert!(sharing.equal);
     }
 
     #[test]

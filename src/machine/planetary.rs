@@ -60,12 +60,6 @@ impl Planetary {
         self.sun.0 + self.planets as f64 * planet + self.carrier.0 * carrier_speed * carrier_speed
     }
 
-    /// Inertia of the whole set at the carrier (kg m2), without losses: `ratio^2` of that at the sun.
-    #[must_use]
-    pub const fn inertia_at_carrier(&self) -> f64 {
-        self.inertia_at_sun() * self.ratio() * self.ratio()
-    }
-
     /// Checks common to every input member.
     const fn check(&self) -> Result<(), Error> {
         if self.sun_teeth == 0 || self.ring_teeth <= self.sun_teeth || self.planets == 0 {

@@ -151,23 +151,6 @@ impl Section {
         let mean = (a2 * a2 + a2 * a * b + a2 * b2 + a * b * b2 + b2 * b2) / 5.0;
         Ok(Inertia(density.0 * PI / 32.0 * self.length.0 * (mean - bore2 * bore2)))
     }
-
-    /// Length that a solid cylinder of another diameter needs to twist as much: `l_e = l (d_e/d)^4` (m)
-    /// [Wang 1989 (1-16)].
-    ///
-    /// # Panics
-    /// At compile time in a constant, where a dimension is out of its range.
-    #[must_use]
-    pub const fn equivalent_length(&self, diameter: Diameter) -> Length {
-        if let Err(error) = self.check() {
-            error.stop()
-        }
-        if !positive(diameter.0) {
-            Error::SectionDiameter.stop()
-        }
-        let square = diameter.0 * diameter.0;
-        Length(square * square * self.slenderness())
-    }
 }
 
 /// Torsional stiffness of a stepped shaft (N m/rad): its sections in series.

@@ -4,7 +4,6 @@
 mod axis;
 mod backlash;
 mod balance;
-mod citations;
 mod cranked;
 mod design;
 mod elements;

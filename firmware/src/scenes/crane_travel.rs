@@ -10,7 +10,7 @@
 //! the shaft torque and of the load torque alike, which changes nothing else while it is constant.
 
 use driveline::configure::{HasInputShaper, Machine, Rating};
-use driveline::design::{Disturbance, Encoder, LoadCycle, ObserverSelection, Requirement, SpeedLoopTuning};
+use driveline::design::{Disturbance, Encoder, SpeedLoopTuning};
 use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::{InputShaper, SetpointLag, SpeedLoop};
 use driveline::machine::{Chain, Diameter, Efficiency, Inertia, Length, Mass, Ratio, Speed, Torque};
@@ -105,22 +105,6 @@ const TRAVEL: f64 = 0.25 / 30.0;
 
 /// Counts of the encoder on a turn.
 pub const COUNTS: u32 = 4096;
-
-/// Observer selection for a start within a second.
-pub const fn selection() -> ObserverSelection {
-    CraneTravel::TWO_MASS.select_observer(
-        &LoadCycle {
-            speed: CraneTravel::RATING.speed.0,
-            torque: 0.4 * CraneTravel::RATING.torque.0,
-            change: 0.4 * CraneTravel::RATING.torque.0,
-            rise: 1.0,
-            every: 12.0,
-            reverses: true,
-        },
-        &Requirement::USUAL,
-        CraneTravel::PERIOD,
-    )
-}
 
 /// A speed loop that follows the ramp with a lag of half a period of the load's swing: the load hardly swings.
 pub type Loop = SpeedLoop<SetpointLag>;

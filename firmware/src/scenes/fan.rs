@@ -5,7 +5,7 @@
 //! The setpoint takes 10 s to rated speed.
 
 use driveline::configure::{Machine, Rating};
-use driveline::design::{Disturbance, Encoder, LoadCycle, ObserverSelection, Requirement, SpeedLoopTuning};
+use driveline::design::{Disturbance, Encoder, SpeedLoopTuning};
 use driveline::machine::{Chain, Damping, Inertia, Speed, Stiffness, Torque};
 use driveline::observer;
 use driveline::settings::{Bases, Screening};
@@ -38,22 +38,6 @@ impl Machine for Fan {
 
 /// Counts of the encoder on a turn.
 pub const COUNTS: u32 = 4096;
-
-/// Observer selection: torque changes within a tenth of a second do not excite the coupling.
-pub const fn selection() -> ObserverSelection {
-    Fan::TWO_MASS.select_observer(
-        &LoadCycle {
-            speed: Fan::RATING.speed.0,
-            torque: Fan::RATING.torque.0,
-            change: 0.5 * Fan::RATING.torque.0,
-            rise: 0.1,
-            every: 5.0,
-            reverses: false,
-        },
-        &Requirement::USUAL,
-        Fan::PERIOD,
-    )
-}
 
 /// One mass.
 pub type Rigid<N> = Governed<N, observer::RigidObserver>;

@@ -12,7 +12,7 @@
 //! mesh passes their resonance.
 
 use driveline::configure::{Machine, Rating};
-use driveline::design::{Disturbance, Encoder, LoadCycle, ObserverSelection, Requirement, SpeedLoopTuning};
+use driveline::design::{Disturbance, Encoder, SpeedLoopTuning};
 use driveline::machine::{
     Chain, Damping, Diameter, Efficiency, Inertia, Length, Ratio, Section, ShearModulus, Speed, Stiffness, Torque,
 };
@@ -63,22 +63,6 @@ impl Machine for GearDrive {
 
 /// Counts of the encoder on a turn.
 pub const COUNTS: u32 = 8_192;
-
-/// Observer selection for a load step within 20 ms.
-pub const fn selection() -> ObserverSelection {
-    GearDrive::TWO_MASS.select_observer(
-        &LoadCycle {
-            speed: GearDrive::RATING.speed.0,
-            torque: 1.5 * GearDrive::RATING.torque.0,
-            change: 0.5 * GearDrive::RATING.torque.0,
-            rise: 0.02,
-            every: 0.5,
-            reverses: false,
-        },
-        &Requirement::USUAL,
-        GearDrive::PERIOD,
-    )
-}
 
 /// Two masses, exact step: the design's choice.
 pub type Exact<N> = Governed<N, TwoMassObserver>;

@@ -6,7 +6,7 @@
 
 use driveline::configure::{Machine, Rating};
 use driveline::design::{
-    Disturbance, Encoder, LoadCycle, ObserverSelection, Requirement, RigidDesign, SpeedLoopTuning,
+    Disturbance, Encoder, RigidDesign, SpeedLoopTuning,
 };
 use driveline::machine::{
     Chain, Damping, Diameter, Efficiency, Inertia, Length, Mass, Planetary, Section, ShearModulus, Speed, Torque,
@@ -58,24 +58,6 @@ impl Machine for PlanetaryDrive {
 
 /// Counts of the encoder on a turn.
 pub const COUNTS: u32 = 8_192;
-
-/// Observer selection for a belt that breaks loose within 0.2 s: one mass. The scene overrules it, since a rigid
-/// observer has to be tuned so lively, lest the speed loop excite the shaft, that its noise costs more than the second
-/// mass.
-pub const fn selection() -> ObserverSelection {
-    PlanetaryDrive::TWO_MASS.select_observer(
-        &LoadCycle {
-            speed: PlanetaryDrive::RATING.speed.0,
-            torque: 0.78 * PlanetaryDrive::RATING.torque.0,
-            change: 0.5 * PlanetaryDrive::RATING.torque.0,
-            rise: 0.2,
-            every: 4.0,
-            reverses: false,
-        },
-        &Requirement::USUAL,
-        PlanetaryDrive::PERIOD,
-    )
-}
 
 /// One mass behind the gear.
 pub type Rigid<N> = Governed<N, GearedObserver<observer::RigidObserver>>;

@@ -20,8 +20,8 @@
 
 use driveline::configure::{HasBacklash, Machine, Rating};
 use driveline::design::{
-    BacklashTakeUpDesign, BacklashTakeUpTuning, BacklashTuning, Disturbance, Encoder, LoadCycle, ObserverSelection,
-    Requirement, RigidDesign, SpeedLoopDesign, SpeedLoopTuning,
+    BacklashTakeUpDesign, BacklashTakeUpTuning, BacklashTuning, Disturbance, Encoder,
+    RigidDesign, SpeedLoopDesign, SpeedLoopTuning,
 };
 use driveline::governor::{SpeedGovernor, SymmetricLimit};
 use driveline::machine::{
@@ -74,22 +74,6 @@ pub const BRAKE_TORQUE: f64 = 6_540.0;
 
 /// Counts of the encoder on a turn.
 pub const COUNTS: u32 = 8192;
-
-/// Observer selection for a brake that closes within 0.3 s.
-pub const fn selection() -> ObserverSelection {
-    SkipWinch::TWO_MASS.select_observer(
-        &LoadCycle {
-            speed: SkipWinch::RATING.speed.0,
-            torque: 1.8 * SkipWinch::RATING.torque.0,
-            change: BRAKE_TORQUE,
-            rise: 0.3,
-            every: 5.0,
-            reverses: false,
-        },
-        &Requirement::USUAL,
-        SkipWinch::PERIOD,
-    )
-}
 
 /// The winch in an emergency, on a rope that can go slack: a shaft with a gap, pulled on one flank, and so far from the
 /// other that it is never met.

@@ -7,7 +7,7 @@
 //! 1024 times.
 
 use driveline::configure::{Machine, Rating};
-use driveline::design::{Disturbance, Encoder, LoadCycle, ObserverSelection, Requirement, SpeedLoopTuning};
+use driveline::design::{Disturbance, Encoder, SpeedLoopTuning};
 use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Section, ShearModulus, Speed, Torque, stepped};
 use driveline::observer::{self, TwoMassObserver};
 use driveline::settings::{Bases, Screening};
@@ -59,23 +59,6 @@ pub const LINES: u32 = 512;
 
 /// Counts of the encoder on a turn.
 pub const COUNTS: u32 = 524_288;
-
-/// Observer selection for a tool that hits the work within 3 ms, three times a second, on the machine as described;
-/// twelve samples on a swing are too few for the semi-implicit step. Over the tolerances one mass is better.
-pub const fn selection() -> ObserverSelection {
-    Spindle::TWO_MASS.select_observer(
-        &LoadCycle {
-            speed: Spindle::RATING.speed.0,
-            torque: 0.66 * Spindle::RATING.torque.0,
-            change: 0.64 * Spindle::RATING.torque.0,
-            rise: 0.003,
-            every: 0.3,
-            reverses: false,
-        },
-        &Requirement::USUAL,
-        Spindle::PERIOD,
-    )
-}
 
 /// One mass: the choice over the tolerances.
 pub type Rigid<N> = Governed<N, observer::RigidObserver>;

@@ -7,7 +7,7 @@
 //! as the stand rolls, so it is left out; a stand that reverses needs the observer of backlash.
 
 use driveline::configure::{HasLife, Machine, Rating};
-use driveline::design::{Encoder, LoadCycle, ObserverSelection, Requirement, SpeedLoopDesign, SpeedLoopTuning};
+use driveline::design::{Encoder, SpeedLoopDesign, SpeedLoopTuning};
 use driveline::drive::Drive;
 use driveline::fatigue::{Rainflow, WoehlerLine};
 use driveline::governor::{DampingLag, SetpointLag, SpeedLoop};
@@ -56,22 +56,6 @@ impl HasLife for StripMill {
 
 /// Counts of the encoder on a turn: a sine encoder of 4096 lines, interpolated 256 times.
 pub const COUNTS: u32 = 1_048_576;
-
-/// Observer selection for a strip bite within 50 ms.
-pub const fn selection() -> ObserverSelection {
-    StripMill::TWO_MASS.select_observer(
-        &LoadCycle {
-            speed: StripMill::RATING.speed.0,
-            torque: 0.7 * StripMill::RATING.torque.0,
-            change: 0.6 * StripMill::RATING.torque.0,
-            rise: 0.05,
-            every: 1.0,
-            reverses: false,
-        },
-        &Requirement::USUAL,
-        StripMill::PERIOD,
-    )
-}
 
 /// A speed loop with lags that keep the spindles from swinging at the run-up and after a bite.
 type Loop = SpeedLoop<(SetpointLag, DampingLag)>;

@@ -12,7 +12,7 @@
 
 use driveline::configure::{HasBarredSpeeds, Machine, Rating};
 use driveline::design::{
-    BarredSpeeds, Disturbance, Encoder, LoadCycle, ObserverSelection, Requirement, SpeedLoopDesign, SpeedLoopTuning,
+    BarredSpeeds, Disturbance, Encoder, SpeedLoopDesign, SpeedLoopTuning,
     USUAL_MARGIN,
 };
 use driveline::governor::{Barred, SpeedGovernor};
@@ -85,23 +85,6 @@ pub const CRITICAL: [f64; 2] = {
     let root = sqrt(half * half - main * lower / (box_mass * frame));
     [sqrt(half - root), sqrt(half + root)]
 };
-
-/// Observer selection for the box's force: at speed `S^2 w^2/2M` either way, twice a turn.
-pub const fn selection() -> ObserverSelection {
-    VibratingScreen::TWO_MASS.select_observer(
-        &LoadCycle {
-            speed: VibratingScreen::RATING.speed.0,
-            torque: 2.0 * VibratingScreen::RATING.torque.0,
-            change: UNBALANCE * UNBALANCE * VibratingScreen::RATING.speed.0 * VibratingScreen::RATING.speed.0
-                / MASSES[0],
-            rise: 0.5 * core::f64::consts::PI / VibratingScreen::RATING.speed.0,
-            every: 0.5 * core::f64::consts::PI / VibratingScreen::RATING.speed.0,
-            reverses: true,
-        },
-        &Requirement::USUAL,
-        VibratingScreen::PERIOD,
-    )
-}
 
 /// The resonances passed by a quick ramp.
 pub type Exact<N> = GovernedBy<N, TwoMassObserver, SpeedGovernor<Barred<2>>>;

@@ -46,7 +46,6 @@ impl Moment {
 pub struct Trace {
     /// Every tick.
     pub moments: Vec<Moment>,
-    /// Inputs and outputs.
     pub words: Vec<(Input, Output)>,
     /// The plant with everything that was done to it, ready to be proven.
     pub recording: Body,
@@ -66,9 +65,6 @@ pub struct Imperfections {
 }
 
 /// Runs a scenario to its end with a drive that ticks `rate_hz` times a second, and keeps everything.
-///
-/// # Errors
-/// What the drive's link says.
 pub fn run(
     machine: &Machine,
     scenario: &Scenario,
@@ -92,9 +88,6 @@ pub fn run(
 }
 
 /// Runs a scenario to its end on `plant`, and shows every tick that ran with the words that it exchanged.
-///
-/// # Errors
-/// What the drive's link says.
 #[expect(clippy::too_many_arguments, reason = "what a closed loop is made of")]
 pub fn follow(
     machine: &Machine,
@@ -152,9 +145,6 @@ impl LockStep {
     }
 
     /// Goes on with a scenario to its end, as [`follow`].
-    ///
-    /// # Errors
-    /// What the drive's link says.
     pub fn follow(
         &mut self,
         machine: &Machine,

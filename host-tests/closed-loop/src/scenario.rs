@@ -28,7 +28,6 @@ pub enum Action {
 /// A load torque that follows the motion.
 #[derive(Clone, Copy)]
 pub struct Law {
-    /// The node.
     pub node: usize,
     /// Torque, referred to the motor (N m), for the plant as it is.
     pub torque: fn(&Body) -> f64,
@@ -56,6 +55,14 @@ pub struct Scenario {
     pub law: Option<Law>,
 }
 
+impl Scenario {
+    /// A run that counts, without torque at first and without a law; its actions and duration are put in.
+    pub fn of(name: &'static str, plant: impl Into<Body>) -> Self {
+        let (actions, marks) = (Vec::new(), Vec::new());
+        Self { name, plant: plant.into(), actions, held: 0.0, duration: 0.0, counted: true, marks, law: None }
+    }
+}
+
 /// A scene's machine, as the report sees it.
 pub struct Machine {
     /// The scene's name.
@@ -70,7 +77,6 @@ pub struct Machine {
     pub chosen: (&'static str, u32),
     /// The runs.
     pub scenarios: Vec<Scenario>,
-    /// Its encoder.
     pub encoder: Encoder,
     /// Standard deviation of the drive's reported torque in a tick at the rate of `chosen` (N m): at another rate white
     /// noise of the same density.

@@ -8,9 +8,6 @@ use driveline_qemu::link::Link;
 /// Something that ticks: a scene on the host, or an image in QEMU.
 pub trait Ticks {
     /// One tick.
-    ///
-    /// # Errors
-    /// What the link says; never on the host.
     fn tick(&mut self, input: &Input) -> io::Result<Output>;
 }
 

@@ -101,9 +101,6 @@ impl Command {
     }
 
     /// Runs the command.
-    ///
-    /// # Errors
-    /// Its sentence, with the exit code.
     pub fn execute(&self) -> Result<(), Failure> {
         match self {
             Self::Campaign(command) => command.execute(&[]),
@@ -130,9 +127,6 @@ pub trait CommandLine: Parser {
     /// The chosen command prints JSON.
     fn json(&self) -> bool;
     /// Runs the chosen command.
-    ///
-    /// # Errors
-    /// Its sentence, with the exit code.
     fn execute(&self) -> Result<(), Failure>;
 }
 

@@ -144,7 +144,6 @@ pub struct MachineFile {
     pub elements: Vec<Part>,
     /// The motor's encoder.
     pub encoder: Encoder,
-    /// The controller.
     pub control: Control,
     /// Disturbances for the observer.
     pub disturbance: Disturbance,
@@ -156,17 +155,14 @@ pub struct MachineFile {
     pub bandwidth: f64,
     /// Its class, which tolerances that the file does not state come from.
     pub class: Class,
-    /// The tolerances.
     #[serde(skip)]
     pub tolerances: Vec<Tolerance>,
     /// The speeds it runs at, where the file says so.
     pub running: Option<Running>,
-    /// Its excitations.
     pub excitations: Vec<Excitation>,
     /// Its piston engine, whose excitation is the last of them.
     #[serde(skip)]
     pub engine: Option<Engine>,
-    /// Its dampers.
     #[serde(skip)]
     pub dampers: Vec<DamperRing>,
     /// How the machine is shaken, if the file says.
@@ -214,7 +210,6 @@ pub struct Branch {
 pub struct Part {
     /// Its label, or its kind, numbered from the second of a kind on.
     pub label: String,
-    /// The element.
     #[serde(flatten)]
     pub element: Element,
 }
@@ -249,7 +244,6 @@ impl Accuracy {
     }
 }
 
-/// The controller.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Control {
     /// Ticks a second.

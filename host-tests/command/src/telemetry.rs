@@ -8,9 +8,7 @@ use crate::machine_file::printable;
 /// Description of a channel.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Described {
-    /// Its name.
     pub name: String,
-    /// Its unit.
     pub unit: String,
     /// Factor of an integer; `None` for `f32`.
     pub factor: Option<f32>,
@@ -23,7 +21,6 @@ impl Described {
         printable(&format!("{}{unit}", self.name), usize::MAX)
     }
 
-    /// A word as a value.
     pub fn value(&self, word: u32) -> f64 {
         match self.factor {
             Some(factor) => f64::from(word as i32) * f64::from(factor),

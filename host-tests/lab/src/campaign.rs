@@ -51,7 +51,6 @@ fn blooming_mill_preparation(by: &Departure) -> Result<Vec<Scenario>, PlantError
     Ok(vec![drivetrains::blooming_mill::uncoupled(by)?])
 }
 
-/// The scenes.
 pub static SCENES: &[CampaignScene] = &[
     CampaignScene::of::<Hoist<10_000>>(
         hoist::SCENE,

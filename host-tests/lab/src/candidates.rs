@@ -11,7 +11,6 @@ use driveline_qemu::image::belongs;
 pub struct Candidate {
     /// Its name in `firmware/src/scenes.rs`: scene, number, observer, rate.
     pub variant: &'static str,
-    /// The board.
     pub board: Facts,
 }
 

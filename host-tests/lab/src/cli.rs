@@ -1,6 +1,5 @@
 //! The command line of the laboratory: its own commands, and those of `cargo driveline`.
 
-mod backlash;
 mod balancing;
 mod check;
 mod commission;
@@ -29,7 +28,6 @@ struct Lab {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    Backlash(backlash::Backlash),
     Check(check::Check),
     Commissioning(commission::Commission),
     Genset(generator::Generator),
@@ -45,7 +43,6 @@ enum Command {
 impl CommandLine for Lab {
     fn json(&self) -> bool {
         match &self.command {
-            Command::Backlash(command) => command.json,
             Command::Check(command) => command.json,
             Command::Commissioning(command) => command.json,
             Command::Genset(command) => command.json,
@@ -60,7 +57,6 @@ impl CommandLine for Lab {
 
     fn execute(&self) -> Result<(), Failure> {
         match &self.command {
-            Command::Backlash(command) => command.execute(),
             Command::Check(command) => command.execute(),
             Command::Commissioning(command) => command.execute(),
             Command::Genset(command) => command.execute(),

@@ -1,10 +1,8 @@
 //! A scene's firmware in closed loop with the full solver of its machine: how wrong the estimates are, and what they
 //! cost.
 
-pub mod approximate;
 pub mod engine;
 mod facts;
-pub mod other_steps;
 mod plan;
 
 pub use plan::{Plan, Variants};

@@ -11,7 +11,6 @@
 //! | dynamic factor | peak of the shaft torque over the largest that the machine would carry were it rigid |
 //! | reason | what a missed aim's squared error is made of, measured, beside what the design predicted |
 
-mod adapters;
 mod aim;
 mod factor;
 mod figures;
@@ -20,11 +19,10 @@ mod page;
 mod pool;
 mod selection;
 
-pub use adapters::adapters;
 pub use aim::Aim;
 pub use factor::Factor;
 pub use figures::{Failure, Gentle, Run, SceneFigures, Survey};
-pub use jobs::{CASES, Job, Piece, REVERSALS, SWEEP, jobs};
-pub use page::{survey_markdown, survey_page, survey_table};
+pub use jobs::{CASES, Job, Piece, jobs};
+pub use page::{survey_markdown, survey_table};
 pub use pool::work;
 pub use selection::{COMMISSIONING, GENERATOR, Wanted};

@@ -23,7 +23,6 @@ mod program;
 mod reference;
 mod step;
 mod swing;
-mod table;
 
 pub use cause::Cause;
 pub use error::{FINEST, Outcome, STEPS, USABLE, errors};
@@ -34,4 +33,3 @@ pub use poles::log_radius;
 pub use reference::{Reference, Truth};
 pub use step::{Increments, OpenLoop, Start, Step};
 pub use swing::{DECISIVE, Swing, free_swings};
-pub use table::{growth, longest, run, swings};

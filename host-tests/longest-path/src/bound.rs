@@ -61,9 +61,6 @@ impl<'c> Bounds<'c> {
 
     /// The cycles of a call from its first instruction to its return. The most is a bound, of the path with the most
     /// cycles on that flash; the least is that of the same path without wait states.
-    ///
-    /// # Errors
-    /// As [`of`](Self::of).
     pub fn cycles(code: &'c Code, loops: &'c Loops, core: Core, flash: Flash, start: u32) -> Result<Cycles, Refusal> {
         let mut bounds = Bounds { clock: Some((core, flash)), ..Bounds::new(code, loops) };
         let most = bounds.of(start)?.instructions;
@@ -101,9 +98,6 @@ impl<'c> Bounds<'c> {
 
     /// The longest path from an address, callees included, in the order of execution. Of a loop, all turns before the
     /// last stand before the last one.
-    ///
-    /// # Errors
-    /// As [`of`](Self::of).
     pub fn path(&mut self, start: u32) -> Result<Vec<Piece>, Refusal> {
         let mut pieces = Vec::new();
         self.pieces(start & !1, 1, 0, &mut pieces)?;

@@ -4,7 +4,6 @@ use object::elf::SHF_EXECINSTR;
 use object::read::elf::ElfFile32;
 use object::{Endianness, Object, ObjectSection, ObjectSymbol, SectionFlags, SymbolKind};
 
-/// A function.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Function {
     /// Its name, as in the file.
@@ -40,9 +39,6 @@ pub struct Code {
 
 impl Code {
     /// Reads a linked ELF file. The mapping symbols `$t` and `$d` (Arm IHI 0044, 5.5.5) separate code from constants.
-    ///
-    /// # Errors
-    /// A file of another format.
     pub fn read(bytes: &[u8]) -> Result<Self, NotReadable> {
         let file = ElfFile32::<Endianness>::parse(bytes)?;
         let mut code = Code::default();
@@ -95,7 +91,6 @@ impl Code {
         &self.functions
     }
 
-    /// The function of that name.
     pub fn named(&self, name: &str) -> Option<&Function> {
         self.functions.iter().find(|function| function.name == name)
     }

@@ -69,9 +69,7 @@ impl Core {
 /// Least and most cycles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cycles {
-    /// The least.
     pub least: u64,
-    /// The most.
     pub most: u64,
 }
 

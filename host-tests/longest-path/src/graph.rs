@@ -32,10 +32,8 @@ pub struct Node {
     pub after: i32,
 }
 
-/// The graph.
 #[derive(Clone, Debug)]
 pub struct Graph {
-    /// The function.
     pub function: Function,
     /// By address.
     pub nodes: BTreeMap<u32, Node>,
@@ -48,9 +46,6 @@ type Open = (u32, u8, i32);
 
 impl Graph {
     /// Follows every branch from a function's beginning.
-    ///
-    /// # Errors
-    /// A flow or a stack pointer that is not known.
     pub fn of(code: &Code, function: &Function) -> Result<Self, Refusal> {
         let mut graph = Graph { function: function.clone(), nodes: BTreeMap::new(), depth: 0 };
         let mut open: Vec<Open> = vec![(function.start, 0, 0)];

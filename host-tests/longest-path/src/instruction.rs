@@ -51,7 +51,6 @@ pub enum Stack {
     Unknown,
 }
 
-/// An instruction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Instruction {
     /// Bytes: two or four.

@@ -8,7 +8,6 @@ use crate::refusal::Refusal;
 /// An instruction, or a loop.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Element {
-    /// An instruction.
     Instruction(u32),
     /// Instructions that lead back to the first of them.
     Loop {
@@ -20,9 +19,6 @@ pub enum Element {
 }
 
 /// The elements of a graph, in order.
-///
-/// # Errors
-/// A loop with two entries.
 pub fn ordered(graph: &Graph) -> Result<Vec<Element>, Refusal> {
     let all: BTreeSet<u32> = graph.nodes.keys().copied().collect();
     elements(graph, &all, graph.function.start, false)

@@ -10,16 +10,19 @@ pub(crate) enum Kind {
     /// The same at an offset in a register.
     StoreIndexed,
     /// Several registers: LDM, STM, LDRD, STRD, PUSH, POP, and exclusive accesses; TBB and TBH read a table.
-    Several { loads: bool },
+    Several {
+        loads: bool,
+    },
     /// VLDR, VSTR, VLDM, VSTM.
-    Float { loads: bool },
+    Float {
+        loads: bool,
+    },
     /// Arithmetic of the floating-point unit.
     Arithmetic,
     /// A branch or a call.
     Branch,
     /// IT.
     It,
-    /// NOP.
     Nop,
     /// Any other.
     Data,
@@ -29,11 +32,9 @@ pub(crate) enum Kind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Operands {
     pub kind: Kind,
-    /// Of the address.
     pub address: u16,
     /// The base is written back, or the offset is in a register.
     pub indexed: bool,
-    /// Written.
     pub writes: u16,
     /// Read of the floating-point unit; the addend of a sum of products not, which is consumed a cycle later.
     pub float_reads: u32,
@@ -45,7 +46,6 @@ pub(crate) struct Operands {
 pub(crate) const SP: u16 = 13;
 const PC: u16 = 15;
 
-/// The bit of a register.
 pub(crate) const fn bit(register: u16) -> u16 {
     1 << (register & 15)
 }

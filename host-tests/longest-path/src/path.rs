@@ -8,7 +8,6 @@ use crate::loops::Element;
 /// A stretch of the longest path: instructions one after the other, executed `times` times.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Piece {
-    /// The function.
     pub function: String,
     /// Depth of calls below the requested function.
     pub depth: usize,
@@ -16,7 +15,6 @@ pub struct Piece {
     pub from: u32,
     /// The address after the last.
     pub to: u32,
-    /// Instructions.
     pub instructions: u64,
     /// How often the path goes through them.
     pub times: u64,

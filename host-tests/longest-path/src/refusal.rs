@@ -14,7 +14,6 @@ pub enum Refusal {
         "{function}: there is no code at {at:#x}, where execution comes; the symbols $t and $d must say where it is"
     )]
     NoCode {
-        /// The function.
         function: String,
         /// The address.
         at: u32,
@@ -24,7 +23,6 @@ pub enum Refusal {
         "{function}: the jump or call at {at:#x} goes to an address that is computed; call the function by its name"
     )]
     Indirect {
-        /// The function.
         function: String,
         /// The instruction.
         at: u32,
@@ -32,27 +30,22 @@ pub enum Refusal {
     /// A branch into another function, not to its beginning.
     #[error("{function}: the branch at {at:#x} goes to {target:#x}, which is inside another function")]
     IntoFunction {
-        /// The function.
         function: String,
         /// The instruction.
         at: u32,
-        /// Its target.
         target: u32,
     },
     /// A function that calls itself, directly or through others.
     #[error("{function} calls itself through the call at {at:#x}; a bound needs a depth of calls that is known")]
     Recursion {
-        /// The function.
         function: String,
         /// The call that closes the circle.
         at: u32,
     },
-    /// A loop without stated turns.
     #[error(
         "{function}: loop {index} at {at:#x} has no stated turns; state the most that it can take, with the reason"
     )]
     Loop {
-        /// The function.
         function: String,
         /// The loop's first instruction.
         at: u32,
@@ -62,7 +55,6 @@ pub enum Refusal {
     /// A loop that is entered at two places.
     #[error("{function}: the loop round {at:#x} is entered at two places; turns cannot be counted")]
     Irreducible {
-        /// The function.
         function: String,
         /// One of them.
         at: u32,
@@ -70,7 +62,6 @@ pub enum Refusal {
     /// A function without the loop for which turns are stated.
     #[error("{function} has {found} loops, but turns are stated for {stated}; state them again")]
     NoSuchLoop {
-        /// The function.
         function: String,
         /// Its loops.
         found: usize,
@@ -80,7 +71,6 @@ pub enum Refusal {
     /// An instruction that the core does not have.
     #[error("{function}: the core has no instruction as that at {at:#x}; name the core that the image is for")]
     OtherCore {
-        /// The function.
         function: String,
         /// The instruction.
         at: u32,
@@ -88,7 +78,6 @@ pub enum Refusal {
     /// A stack pointer that is not known.
     #[error("{function}: the stack pointer after {at:#x} is not known: it is computed, or depends on the path taken")]
     Stack {
-        /// The function.
         function: String,
         /// The instruction.
         at: u32,

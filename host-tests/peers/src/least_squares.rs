@@ -10,7 +10,6 @@ use crate::model::Replayed;
 
 /// Readings.
 pub const ROWS: usize = 4;
-/// Planes.
 pub const PLANES: usize = 3;
 
 /// Influence coefficients, amplitude and phase in degrees.
@@ -43,7 +42,6 @@ fn rounded<T: Scalar>(value: (f64, f64)) -> Complex<T> {
 
 /// Least squares of the case.
 pub trait Solver {
-    /// Its number.
     type Number: Scalar;
     /// The weights; zeros where there are none.
     fn weights(&self) -> [Complex<Self::Number>; PLANES];

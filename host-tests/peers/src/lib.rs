@@ -1,5 +1,4 @@
 #![no_std]
-#![warn(missing_docs)]
 //! Other observers on the signals of driveline's scenes.
 //!
 //! Each is an observer behind one trait, [`Replayed`]: angle and torque of a tick in, shaft torque and load speed out.
@@ -24,8 +23,6 @@ pub mod kalman;
 pub mod least_squares;
 pub mod library;
 pub mod list;
-/// As the comparison through the gap has it.
-#[path = "../../lab/src/backlash/approach/luenberger.rs"]
 pub mod luenberger;
 pub mod model;
 pub mod scene;

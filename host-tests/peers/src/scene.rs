@@ -14,7 +14,6 @@ use driveline_firmware::scenes::{
 /// What an observer of a scene's machine is designed from.
 #[derive(Clone, Copy, Debug)]
 pub struct Scene {
-    /// Its name.
     pub name: &'static str,
     /// Ticks a second.
     pub rate_hz: u32,

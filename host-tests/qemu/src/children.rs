@@ -48,9 +48,6 @@ const GRACE: Duration = Duration::from_secs(3);
 
 /// From now on Ctrl-C, SIGTERM, SIGHUP and SIGQUIT end the children with theirs and remove the temporary files, before
 /// they end the program as ever. SIGHUP stays ignored where it is, as by `nohup`.
-///
-/// # Errors
-/// What the system says.
 pub fn end_with_signals() -> io::Result<()> {
     let hangup = (!ignores(SIGHUP)).then_some(SIGHUP);
     let mut signals = Signals::new([SIGINT, SIGTERM, SIGQUIT].into_iter().chain(hangup))?;
@@ -105,9 +102,6 @@ pub struct Running {
 
 impl Running {
     /// Starts a child.
-    ///
-    /// # Errors
-    /// What the system says.
     pub fn start(command: &mut Command) -> io::Result<Self> {
         // under the lock, lest a signal come between the start and the entry
         let mut owned = owned();
@@ -162,9 +156,6 @@ pub struct Guard {
 
 impl Guard {
     /// Makes a temporary file or folder, which its owner removes, and guards it; of a pair the second is dropped first.
-    ///
-    /// # Errors
-    /// As the maker.
     pub fn around<T>(make: impl FnOnce() -> io::Result<T>, path: impl FnOnce(&T) -> &Path) -> io::Result<(Self, T)> {
         // under the lock, lest a signal come between the two
         let mut owned = owned();
@@ -207,9 +198,6 @@ impl Folder {
     }
 
     /// Makes one, hidden, in another folder.
-    ///
-    /// # Errors
-    /// What the system says.
     pub fn make_in(place: &Path) -> io::Result<Self> {
         let prefix = if place == std::env::temp_dir() { "driveline-" } else { ".driveline-" };
         let make = || tempfile::Builder::new().prefix(prefix).tempdir_in(place);

@@ -13,9 +13,6 @@ pub struct NoClone;
 const ROOT: [&str; 3] = ["budgets.toml", "firmware/Cargo.toml", "src/lib.rs"];
 
 /// The root of the clone.
-///
-/// # Errors
-/// The current folder is in none.
 pub fn workspace() -> Result<&'static Path, NoClone> {
     static FOUND: OnceLock<Option<PathBuf>> = OnceLock::new();
     FOUND.get_or_init(|| root(&env::current_dir().ok()?)).as_deref().ok_or(NoClone)
@@ -27,9 +24,6 @@ pub fn root(folder: &Path) -> Option<PathBuf> {
 }
 
 /// Cargo's target directory of the clone.
-///
-/// # Errors
-/// The current folder is in none.
 pub fn target_directory() -> Result<PathBuf, NoClone> {
     let root = workspace()?;
     let named = env::var_os("CARGO_TARGET_DIR").filter(|name| !name.is_empty());

@@ -1,9 +1,7 @@
 //! The plots of the report, each from its data to an `<svg>` element.
 
 mod campbell;
-mod compare;
 mod cost;
-mod heat;
 mod label;
 mod lines;
 mod panels;
@@ -14,9 +12,7 @@ mod shape;
 mod trajectory;
 
 pub use campbell::{Crossing, Ray, campbell};
-pub use compare::step_errors;
 pub use cost::{Cost, Quality, error_against_cost};
-pub use heat::{CLASSES, heat_map};
 pub use lines::{Curve, Line, Lines, over_time};
 pub use panels::{Panel, panels};
 pub use pareto::front;

@@ -8,7 +8,6 @@
 //! | variant | number type, core, observer and rate of a drive |
 //! | error | estimate less truth, as a fraction of the peak (torque) or of the rated speed |
 //! | front | the variants that no other beats in both cost and error |
-//! | composition | the parts a drive is made of, for the table of flash and RAM |
 //!
 //! ```
 //! use driveline_report::Report;
@@ -19,20 +18,18 @@
 
 pub mod chart;
 pub mod format;
-pub mod page;
+mod page;
 mod report;
 mod results;
 mod sample;
 mod sheet;
-pub mod svg;
-mod sweep;
+mod svg;
 mod table;
 mod trajectory;
 
 pub use report::Report;
-pub use results::{Budget, Comparison, Composition, Deviation, Fact, Instructions, Variant};
+pub use results::{Budget, Deviation, Fact, Instructions, Variant};
 pub use sample::{SAMPLES, Sample, Sampled, samples_table};
 pub use sheet::{Arrangement, Figure, Key, Section, Sheet};
-pub use sweep::{Slice, Sweep, SweepPoint};
 pub use table::{Table, variants_table};
 pub use trajectory::{Mark, Signal, Trajectory};

@@ -1,7 +1,7 @@
 //! Puts the report on one page.
 
 mod thinning;
-pub mod view;
+mod view;
 
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment};
@@ -13,8 +13,6 @@ use crate::report::Report;
 const TEMPLATES: &[(&str, &str)] = &[
     ("page.html", include_str!("page/page.html")),
     ("costs.html", include_str!("page/costs.html")),
-    ("sweeps.html", include_str!("page/sweeps.html")),
-    ("survey.html", include_str!("page/survey.html")),
     ("sheet.html", include_str!("page/sheet.html")),
     ("frame.html", include_str!("page/frame.html")),
     ("style.css", include_str!("page/style.css")),

@@ -1,15 +1,11 @@
 //! The report of a run, whole.
 
-use serde::{Deserialize, Serialize};
-
-use crate::results::{Budget, Comparison, Composition, Fact, Variant};
+use crate::results::{Budget, Fact, Variant};
 use crate::sample::Sample;
-use crate::sweep::Sweep;
 use crate::trajectory::Trajectory;
 
 /// Everything that a run has to say.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
     /// The scene's name: `hoist`.
     pub scene: String,
@@ -23,12 +19,6 @@ pub struct Report {
     pub variants: Vec<Variant>,
     /// Courses over time; the first variant and situation are shown first.
     pub trajectories: Vec<Trajectory>,
-    /// The observer with other steps, computed on the host.
-    pub comparisons: Vec<Comparison>,
-    /// Sweeps over machines and rates.
-    pub sweeps: Vec<Sweep>,
-    /// Flash and RAM by composition.
-    pub compositions: Vec<Composition>,
     /// Budgets and what was measured against them.
     pub budgets: Vec<Budget>,
     /// What the reader should know, a sentence each.

@@ -1,10 +1,10 @@
 //! The figures of a run: what each variant got wrong and what it cost.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// Root mean square and largest absolute value of an error, as a fraction: of the peak for a torque, of the rated speed
 /// for a speed. A value that is not finite stands for an estimate that diverged; JSON writes it as `null`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Deviation {
     /// Root mean square over the run.
     #[serde(with = "diverged_as_null")]
@@ -15,18 +15,17 @@ pub struct Deviation {
 }
 
 /// Instructions of one tick over the inputs of the run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Instructions {
     /// Fewest.
     pub min: u64,
-    /// Median.
     pub median: u64,
     /// Most of the run's inputs, which is no bound.
     pub max: u64,
 }
 
 /// One variant of a scene: how wrong it was and what it cost. The fields are those that `run --json` prints.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Variant {
     /// Number type: `f32` or `fixed`.
     pub number: String,
@@ -71,62 +70,13 @@ impl Variant {
     }
 }
 
-/// The observer computed on the host with another step: the exact one's worth.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Comparison {
-    /// Step: `exact`, `semi-implicit`, `Tustin`, `forward Euler`.
-    pub step: String,
-    /// Observer it was put into.
-    pub observer: String,
-    /// Ticks a second.
-    pub rate_hz: u32,
-    /// Error of the shaft torque, of its peak.
-    pub shaft_torque: Deviation,
-    /// Error of the load speed, of the rated speed.
-    pub load_speed: Deviation,
-    /// Error of the load torque, of its peak.
-    pub load_torque: Deviation,
-}
-
-/// Flash and RAM of a drive composed in one way, by section of the image, over the image without a drive.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Composition {
-    /// Its parts: `rigid`, `two-mass`, `full`.
-    pub name: String,
-    /// Number type.
-    pub number: String,
-    /// Core.
-    pub core: String,
-    /// Code (byte).
-    pub text_bytes: u64,
-    /// Constants (byte).
-    pub rodata_bytes: u64,
-    /// Initialised data (byte): in flash and in RAM.
-    pub data_bytes: u64,
-    /// Zeroed data (byte).
-    pub bss_bytes: u64,
-}
-
-impl Composition {
-    /// Flash (byte).
-    pub const fn flash(&self) -> u64 {
-        self.text_bytes + self.rodata_bytes + self.data_bytes
-    }
-
-    /// RAM (byte).
-    pub const fn ram(&self) -> u64 {
-        self.data_bytes + self.bss_bytes
-    }
-}
-
 /// A budget and what was measured against it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Budget {
     /// Bounded quantity: `instructions, exact step, m4f f32`.
     pub name: String,
     /// Unit of both numbers: `instructions`, `byte`, `%`; empty for a pure number.
     pub unit: String,
-    /// Measurement.
     #[serde(with = "diverged_as_null")]
     pub measured: f64,
     /// The most that is allowed.
@@ -141,23 +91,18 @@ impl Budget {
 }
 
 /// A fact of the machine or the run, as a name and a value with its unit.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Fact {
-    /// Name.
     pub name: String,
     /// Value with its unit.
     pub value: String,
 }
 
-/// JSON has no infinity: what diverged is `null`, and comes back as infinite.
+/// JSON has no infinity: what diverged is `null`.
 pub(super) mod diverged_as_null {
-    use serde::{Deserialize, Deserializer, Serializer};
+    use serde::Serializer;
 
     pub fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
         if value.is_finite() { serializer.serialize_f64(*value) } else { serializer.serialize_none() }
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-        Ok(Option::<f64>::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
     }
 }

@@ -1,13 +1,13 @@
 //! Errors over a sample of machines within their tolerances.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::format::percent;
 use crate::results::diverged_as_null;
 use crate::table::Table;
 
 /// An error of the nominal machine and over a sample of machines, as a fraction of a rated value.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Sampled {
     /// Of the machine that the drive was designed for, with ideal sensors and torque.
     #[serde(with = "diverged_as_null")]
@@ -21,15 +21,13 @@ pub struct Sampled {
 }
 
 /// A drive on a sample of machines.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Sample {
     /// The variant, as `hoist/f32/reduced/10000`.
     pub variant: String,
-    /// The run.
     pub run: String,
     /// Machines: draws from 0 on.
     pub draws: u64,
-    /// Their seed.
     pub seed: u64,
     /// Machines on which the loop did not hold.
     pub unstable: u64,

@@ -19,16 +19,13 @@ pub struct Sheet {
     pub summary: String,
     /// Its quantities.
     pub facts: Vec<Fact>,
-    /// The figures.
     pub figures: Vec<Figure>,
-    /// The tables.
     pub tables: Vec<Section>,
 }
 
 /// A section with plots.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Figure {
-    /// Title.
     pub title: String,
     /// Caption, in a sentence or two.
     pub text: String,
@@ -63,7 +60,6 @@ pub struct Key {
 }
 
 impl Key {
-    /// Of a curve.
     pub fn curve(name: impl Into<String>, class: impl Into<String>) -> Self {
         Self { name: name.into(), class: class.into(), arrow: false }
     }
@@ -77,16 +73,13 @@ impl Key {
 /// A section with a table. On a terminal the text is left out.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Section {
-    /// Title.
     pub title: String,
     /// What is in it, in a sentence or two.
     pub text: String,
-    /// The table.
     pub table: Table,
 }
 
 impl Section {
-    /// A table with its title and text.
     pub fn new(title: impl Into<String>, text: impl Into<String>, table: Table) -> Self {
         Self { title: title.into(), text: text.into(), table }
     }

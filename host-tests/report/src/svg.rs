@@ -67,16 +67,6 @@ impl Svg {
         self.element(&[x, y, width, height, r], text);
     }
 
-    /// A rectangle with a tooltip.
-    pub fn cell(&mut self, class: &str, x: f64, y: f64, width: f64, height: f64, title: &str) {
-        let title = escape(title);
-        let text = format_args!(
-            r#"<rect class="{class}" x="{x:.1}" y="{y:.1}" width="{width:.1}" height="{height:.1}"><title>{title}</title></rect>"#
-        );
-        self.element(&[x, y, width, height], text);
-    }
-
-    /// A text.
     pub fn text(&mut self, class: &str, x: f64, y: f64, anchor: Anchor, text: &str) {
         let anchor = match anchor {
             Anchor::Start => "start",

@@ -23,7 +23,6 @@ impl Table {
         self.rows.push(columns.into_iter().map(Into::into).collect());
     }
 
-    /// The headings.
     pub fn headings(&self) -> &[String] {
         &self.headings
     }

@@ -114,13 +114,6 @@ impl Combustion {
         [torque * a, torque * b / speed, -torque * c / (speed * speed)]
     }
 
-    /// Speed of the largest torque, `omega_N b/(2 c)`.
-    #[must_use]
-    pub const fn speed_at_peak_torque(&self) -> Speed {
-        let [_, b, c] = self.mixture.coefficients();
-        Speed(self.rated_speed * b / (2.0 * c))
-    }
-
     /// Largest torque over rated torque, `a + b^2/(4 c)`.
     #[must_use]
     pub const fn overload(&self) -> f64 {

@@ -33,7 +33,7 @@ fn meets<const M: usize>(case: &Value) {
     let radius = case["spectral_radius"].as_f64().unwrap();
     let errors = [
         apart(&found.gain, &matrix(&case["K_filter"])),
-        apart(&found.predictor_gain(&f), &matrix(&case["K_predictor"])),
+        apart(&f.times(&found.gain), &matrix(&case["K_predictor"])),
         apart(&found.prior, &matrix(&case["P_prior"])),
         apart(&found.posterior, &matrix(&case["P_posterior"])),
         apart(&found.innovation, &matrix(&case["innovation_cov_S"])),

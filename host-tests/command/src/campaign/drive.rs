@@ -28,9 +28,6 @@ const PLAIN: &str = "plain";
 impl Drive {
     /// The design's choice in `f32`, the variant with this number, observer and rate, or `plain`. Of a machine file the
     /// choice over its tolerances, `two-mass`, `rigid` or `plain`.
-    ///
-    /// # Errors
-    /// A sentence: no such variant.
     pub fn named(scene: &CampaignScene, machine: &Machine, name: Option<&str>) -> Result<Self, String> {
         let (observer, rate) = machine.chosen;
         if scene.file().is_some() {
@@ -101,9 +98,6 @@ impl Drive {
     }
 
     /// It at rest.
-    ///
-    /// # Errors
-    /// A sentence: constants that `f32` does not hold.
     pub fn start(&self, scene: &CampaignScene, machine: &Machine) -> Result<OnHost<Box<dyn Scene>>, String> {
         Ok(OnHost(match (self, scene.file()) {
             (Self::Variant(row), _) => row.start(),

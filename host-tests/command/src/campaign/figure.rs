@@ -15,7 +15,6 @@ macro_rules! figures {
             /// All, in the order of an outcome.
             pub const ALL: &[Self] = &[$(Self::$figure),+];
 
-            /// Name.
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$figure => $name),+ }
             }
@@ -79,7 +78,6 @@ pub const FIGURES: usize = Figure::ALL.len();
 pub struct Outcome(pub [f64; FIGURES]);
 
 impl Outcome {
-    /// A figure.
     pub const fn of(&self, figure: Figure) -> f64 {
         self.0[figure as usize]
     }

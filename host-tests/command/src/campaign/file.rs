@@ -46,11 +46,9 @@ impl FileObserver {
 /// A machine of a file with its designs.
 #[derive(Clone, Debug)]
 pub struct FileCase {
-    /// The machine.
     pub machine: MachineFile,
     /// Its name in names of results.
     pub name: String,
-    /// Its designs.
     pub designs: Designs,
     /// Begin of the load's change, its end, the lower speed, the end of the run (s).
     times: [f64; 4],
@@ -139,15 +137,10 @@ impl FileCase {
     }
 
     /// The machine as it is: up to its speed, a change of load that comes and goes, half of the speed.
-    ///
-    /// # Errors
-    /// A figure of the plant that is out of range.
     pub fn departing(&'static self, by: &Departure) -> Result<Machine, PlantError> {
         let Self { machine, designs, times: [.., slower, end], .. } = self;
         let speed = machine.limits.speed;
         let run = Scenario {
-            name: "run-up, a load that comes and goes, slower",
-            plant: self.plant(by)?,
             held: designs.two.gravity_torque * by.load,
             actions: vec![
                 (RELEASE, Action::Release),
@@ -155,9 +148,7 @@ impl FileCase {
                 (*slower, Action::Setpoint(0.5 * speed)),
             ],
             duration: *end,
-            counted: true,
-            marks: Vec::new(),
-            law: None,
+            ..Scenario::of("run-up, a load that comes and goes, slower", self.plant(by)?)
         };
         let last = machine.chain.masses().len() - 1;
         Ok(Machine {
@@ -185,9 +176,6 @@ impl FileCase {
     }
 
     /// The drive with an observer, at rest.
-    ///
-    /// # Errors
-    /// A sentence: constants that `f32` does not hold.
     pub fn start(&self, observer: FileObserver) -> Result<Box<dyn Scene>, String> {
         let Designs { two, two_masses, rigid, speed_loop, ramp, .. } = &self.designs;
         let sentence = |error: driveline::settings::Error| error.to_string();
@@ -221,9 +209,6 @@ impl FileCase {
 
 /// A machine as a plant that departs from the file: it hangs on its shafts, its gears have their losses, its ropes
 /// only pull, and a load torque (s, N m) is added at its far end. Its dampers stand on it with their nominal sizes.
-///
-/// # Errors
-/// What the plant refuses.
 fn plant(machine: &MachineFile, load: [(f64, f64); 4], by: &Departure) -> Result<Body, PlantError> {
     let (masses, shafts) = (machine.chain.masses(), machine.chain.shafts());
     let (rope, efficiency) = machine.ropes_and_efficiencies();

@@ -17,9 +17,6 @@ pub struct Shard {
 
 impl Shard {
     /// Reads `K/N`.
-    ///
-    /// # Errors
-    /// A sentence.
     pub fn parse(text: &str) -> Result<Self, String> {
         let numbers = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
         numbers

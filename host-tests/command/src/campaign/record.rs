@@ -27,7 +27,6 @@ pub struct Settings {
     pub draws: u64,
     /// Seed of the draws.
     pub seed: u64,
-    /// The tolerances.
     pub tolerances: Vec<Tolerance>,
     /// The nominal machine's outcome.
     pub nominal: Outcome,
@@ -39,7 +38,6 @@ pub struct Settings {
 const FIRST: &str = "# driveline campaign 2";
 
 impl Settings {
-    /// The scene.
     pub fn scene(&self) -> &str {
         self.variant.split('/').next().unwrap_or_default()
     }
@@ -257,9 +255,6 @@ impl Record {
     }
 
     /// Adds a draw.
-    ///
-    /// # Errors
-    /// What the system says.
     pub fn add(&mut self, number: u64, outcome: Outcome) -> Result<(), String> {
         let written = self.file.write_all(line(number, &outcome).as_bytes());
         written.map_err(|error| format!("{}: {error}", self.path.display()))?;

@@ -15,9 +15,6 @@ use driveline_closed_loop::ticks::OnHost;
 
 /// Runs a draw. One that swings at the end runs again without noise and errors of the encoder, to find out whether the
 /// loop sustains the swing or the sensors do.
-///
-/// # Errors
-/// A sentence: values that no plant can have.
 pub fn run(scene: &CampaignScene, drive: &Drive, draw: &Draw) -> Result<Outcome, String> {
     let wrong = |error: &dyn core::fmt::Display| format!("draw {} of `{}`: {error}", draw.number, scene.name);
     let machine = scene.departing(&draw.departure()).map_err(|error| wrong(&error))?;

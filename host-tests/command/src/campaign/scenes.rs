@@ -16,7 +16,6 @@ use driveline_closed_loop::scenario::{Machine, Scenario};
 /// A scene that campaigns are run of.
 #[derive(Clone, Copy, Debug)]
 pub struct CampaignScene {
-    /// Its name.
     pub name: &'static str,
     source: Source,
     /// Delay and lag of the torque that the design has (s).
@@ -40,23 +39,17 @@ pub struct CampaignScene {
 /// A scene of the firmware.
 #[derive(Clone, Copy, Debug)]
 pub struct Firmware {
-    /// Its plant.
     pub departing: fn(&Departure) -> Result<Machine, PlantError>,
     /// The runs in which its learners find the machine, with known loads or without load.
     pub preparation: fn(&Departure) -> Result<Vec<Scenario>, PlantError>,
     /// The class that motor, inverter and encoder have their tolerances from.
     pub class: Class,
-    /// Its own tolerances.
     pub tolerances: &'static [Tolerance],
-    /// Its variants.
     pub variants: &'static [Row],
 }
 
 impl Firmware {
     /// No learners, no preparation.
-    ///
-    /// # Errors
-    /// None.
     pub fn unprepared(_: &Departure) -> Result<Vec<Scenario>, PlantError> {
         Ok(Vec::new())
     }
@@ -65,17 +58,12 @@ impl Firmware {
 /// Where a scene's machine comes from.
 #[derive(Clone, Copy, Debug)]
 enum Source {
-    /// A scene of the firmware.
     Scene(Firmware),
-    /// A file.
     File(&'static FileCase),
 }
 
 impl CampaignScene {
     /// A machine file as a scene. It is kept to the end of the program.
-    ///
-    /// # Errors
-    /// A sentence: what a campaign cannot be run of.
     pub fn of_file(machine: MachineFile) -> Result<Self, String> {
         let case: &'static FileCase = Box::leak(Box::new(FileCase::of(machine)?));
         Ok(CampaignScene {
@@ -93,9 +81,6 @@ impl CampaignScene {
     }
 
     /// Its machine with one run, departing from the scene's figures.
-    ///
-    /// # Errors
-    /// A figure of the plant that is out of range.
     pub fn departing(&self, by: &Departure) -> Result<Machine, PlantError> {
         match self.source {
             Source::Scene(scene) => (scene.departing)(by),
@@ -104,9 +89,6 @@ impl CampaignScene {
     }
 
     /// The runs before that of a draw, in which a drive's learners find its machine; none of a drive without learners.
-    ///
-    /// # Errors
-    /// Values that no plant can have.
     pub fn preparation(&self, drive: &Drive, by: &Departure) -> Result<Vec<Scenario>, PlantError> {
         match self.source {
             Source::Scene(scene) if drive.learns() => (scene.preparation)(by),
@@ -146,7 +128,6 @@ impl CampaignScene {
         }
     }
 
-    /// Its tolerances.
     pub fn tolerances(&self) -> Vec<Tolerance> {
         match self.source {
             Source::Scene(scene) => scene.class.drive().into_iter().chain(scene.tolerances.iter().copied()).collect(),

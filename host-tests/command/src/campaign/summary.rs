@@ -31,7 +31,6 @@ pub struct Distribution {
     pub p90: f64,
     /// The worst draw's.
     pub worst: f64,
-    /// The worst draw.
     pub worst_draw: u64,
 }
 
@@ -83,7 +82,6 @@ pub struct Summary {
     pub seed: u64,
     /// The tolerances: least and greatest value.
     pub tolerances: BTreeMap<&'static str, (f64, f64)>,
-    /// The figures.
     pub figures: Vec<Distribution>,
     /// Draws whose loop did not hold.
     pub unstable: Vec<Unstable>,
@@ -98,7 +96,6 @@ pub struct Summary {
 /// The draws beside their outcomes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Drawn {
-    /// The tolerances.
     pub tolerances: Vec<Tolerance>,
     /// The draws in the order of their numbers.
     pub draws: Vec<(Draw, Outcome)>,

@@ -32,9 +32,6 @@ pub struct Tuned {
 
 impl Tuned {
     /// `KEY=LOW..HIGH`.
-    ///
-    /// # Errors
-    /// A sentence with the form that was expected.
     pub fn parse(text: &str) -> Result<Self, String> {
         let expected = || {
             format!(
@@ -197,9 +194,6 @@ pub fn of_share(figure: Figure, outcomes: &[Outcome]) -> f64 {
 
 /// Searches the ranges; `try_out` gives what is to be least at these values. Gives all points, the best one first: of
 /// equal ones that which was tried first.
-///
-/// # Errors
-/// What `try_out` says of a run that failed.
 pub fn search(
     tuned: &[Tuned],
     mut try_out: impl FnMut(&[f64]) -> Result<Result<f64, String>, String>,

@@ -9,9 +9,6 @@ use driveline::machine::{Damper, Member};
 use crate::machine_file::{Branch, DamperKind, DamperRing, Element, MachineFile, Part};
 
 /// The constants: the chain, its reduction, the observer's design and, for two masses, the speed loop's.
-///
-/// # Errors
-/// As [`MachineFile::with_dampers`].
 pub fn rust(machine: &MachineFile) -> Result<String, String> {
     let name = machine.constant();
     let mut words = words(machine);

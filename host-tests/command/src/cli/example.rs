@@ -51,9 +51,6 @@ const EXAMPLES: [(&str, &str, &str); 16] = [
 
 impl Example {
     /// Prints the file, or the names.
-    ///
-    /// # Errors
-    /// No such example.
     pub fn execute(&self) -> Result<(), Failure> {
         let Some(name) = &self.name else {
             if self.json {

@@ -30,9 +30,6 @@ pub struct Recorded {
 
 impl Recorded {
     /// As the reader takes them.
-    ///
-    /// # Errors
-    /// A number that is not positive.
     pub fn asked(&self) -> Result<Asked, Failure> {
         let positive = [
             ("--rate", self.rate),

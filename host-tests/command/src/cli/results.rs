@@ -57,9 +57,6 @@ impl Destination {
     }
 
     /// Writes it, and says where it is unless there is JSON on standard output.
-    ///
-    /// # Errors
-    /// As [`write`](Self::write).
     pub fn write_and_say(&self, bytes: &(impl AsRef<[u8]> + ?Sized), json: bool) -> Result<(), Failure> {
         self.write(bytes)?;
         if !json {
@@ -69,9 +66,6 @@ impl Destination {
     }
 
     /// Makes its folder, where that is made.
-    ///
-    /// # Errors
-    /// What the file system says.
     pub fn make_folder(&self) -> Result<(), Failure> {
         let made = if self.makes_folder { fs::create_dir_all(folder_of(&self.path)) } else { Ok(()) };
         made.map_err(|error| self.unwritable(&error))
@@ -79,9 +73,6 @@ impl Destination {
 
     /// Writes its beginning, and gives the file for what follows: until the beginning is complete, what stood there
     /// stays.
-    ///
-    /// # Errors
-    /// What the file system says.
     pub fn begin(&self, bytes: &[u8]) -> io::Result<File> {
         let there = fs::metadata(&self.path).ok();
         if there.as_ref().is_some_and(|there| !there.is_file()) {
@@ -153,9 +144,6 @@ impl Destination {
 
 /// Before any work: refuses files that are a source or one another, and those whose folder is missing. Standard output
 /// counts where it goes into a file. A source `-` is standard input.
-///
-/// # Errors
-/// The file and what is wrong with it.
 pub fn check<'d>(sources: &[&Path], files: impl IntoIterator<Item = &'d Destination>) -> Result<(), Failure> {
     let source =
         |path: &&Path| (Identity::of(if **path == *"-" { Path::new("/dev/stdin") } else { path }), "made from");
@@ -182,9 +170,6 @@ pub fn check<'d>(sources: &[&Path], files: impl IntoIterator<Item = &'d Destinat
 }
 
 /// The same before long work, and whether each file that the user named can be written.
-///
-/// # Errors
-/// As [`check`]; what the system says.
 pub fn check_writable<'d>(
     sources: &[&Path],
     files: impl IntoIterator<Item = &'d Destination> + Clone,
@@ -197,9 +182,6 @@ pub fn check_writable<'d>(
 }
 
 /// Of results that are all written, whichever fails: the first failure.
-///
-/// # Errors
-/// The first one.
 pub fn all(written: impl IntoIterator<Item = Result<(), Failure>>) -> Result<(), Failure> {
     let written: Vec<_> = written.into_iter().collect();
     written.into_iter().collect()

@@ -32,9 +32,6 @@ pub fn ready(needs: &[Need]) -> Result<(), Failure> {
 }
 
 /// Installs what of some needs is missing, with each command on standard error; the names of what was installed.
-///
-/// # Errors
-/// What could not be installed, and the command to type.
 pub fn install(needs: &[Need]) -> Result<Vec<String>, Failure> {
     ensure(needs, |command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))
 }

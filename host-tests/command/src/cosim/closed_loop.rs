@@ -53,7 +53,6 @@ pub struct Plan {
 /// A quantity over the run.
 #[derive(Clone, Debug)]
 pub struct Column {
-    /// Name.
     pub name: String,
     /// Unit; empty where none is declared.
     pub unit: String,
@@ -66,7 +65,6 @@ pub struct Column {
 pub struct Deviation {
     /// Estimated quantity.
     pub name: &'static str,
-    /// Its unit.
     pub unit: &'static str,
     /// Estimate less truth, at the beginning of each tick.
     pub values: Vec<f64>,

@@ -14,7 +14,6 @@ pub enum Version {
 /// A unit: a value is `factor` times it plus `offset` in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unit {
-    /// Its name.
     pub name: String,
     factor: f64,
     offset: f64,
@@ -69,10 +68,8 @@ impl Quantity {
     }
 }
 
-/// A variable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
-    /// Name.
     pub name: String,
     /// Value reference.
     pub reference: u32,
@@ -88,7 +85,6 @@ pub struct Variable {
     pub is_array: bool,
 }
 
-/// The description.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Description {
     /// Version of the standard.
@@ -101,7 +97,6 @@ pub struct Description {
     pub token: String,
     /// `fixedInternalStepSize` (s).
     pub step: Option<f64>,
-    /// The variables.
     pub variables: Vec<Variable>,
 }
 
@@ -119,9 +114,6 @@ fn unit(node: Node<'_, '_>) -> Option<Unit> {
 
 impl Description {
     /// Reads the text of the file.
-    ///
-    /// # Errors
-    /// A sentence: no XML, another version, no co-simulation.
     pub fn read(text: &str) -> Result<Self, String> {
         let document = Document::parse(text).map_err(|error| format!("modelDescription.xml is no XML: {error}"))?;
         let root = document.root_element();
@@ -207,9 +199,6 @@ impl Description {
     }
 
     /// The scalar number of this name, which has the unit of a quantity, or none.
-    ///
-    /// # Errors
-    /// As [`scalar`](Self::scalar), and a variable of another unit.
     pub fn signal(&self, name: &str, causality: &str, quantity: Quantity) -> Result<&Variable, String> {
         let variable = self.scalar(name, causality)?;
         if causality == "input" && variable.causality != "input" {

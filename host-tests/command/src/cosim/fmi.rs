@@ -231,9 +231,6 @@ impl Instance {
     }
 
     /// Begins initialisation at the time zero.
-    ///
-    /// # Errors
-    /// The FMU's message.
     pub fn begin(&mut self) -> Result<(), String> {
         // SAFETY: an instance of these functions.
         let status = unsafe {
@@ -249,9 +246,6 @@ impl Instance {
     }
 
     /// Ends initialisation: steps may follow.
-    ///
-    /// # Errors
-    /// The FMU's message.
     pub fn start(&mut self) -> Result<(), String> {
         // SAFETY: an instance of this function.
         let status = unsafe { (self.exit)(self.component) };
@@ -261,9 +255,6 @@ impl Instance {
     }
 
     /// Values of scalar numbers.
-    ///
-    /// # Errors
-    /// The FMU's message.
     pub fn get(&self, references: &[u32], values: &mut [f64]) -> Result<(), String> {
         assert_eq!(references.len(), values.len());
         let (variables, count, to) = (references.as_ptr(), references.len(), values.as_mut_ptr());
@@ -278,9 +269,6 @@ impl Instance {
     }
 
     /// Sets scalar numbers.
-    ///
-    /// # Errors
-    /// The FMU's message.
     pub fn set(&mut self, references: &[u32], values: &[f64]) -> Result<(), String> {
         assert_eq!(references.len(), values.len());
         let (variables, count, from) = (references.as_ptr(), references.len(), values.as_ptr());
@@ -295,9 +283,6 @@ impl Instance {
     }
 
     /// Value of a `UInt32`, which FMI 3.0 alone has.
-    ///
-    /// # Errors
-    /// The FMU's message.
     pub fn bits(&self, reference: u32) -> Result<u32, String> {
         let Functions::Three { get_bits, .. } = self.functions else {
             return Err(self.refused("FMI 2.0 has no type UInt32"));

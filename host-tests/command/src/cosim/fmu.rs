@@ -16,9 +16,7 @@ const LARGEST: u64 = 1 << 30;
 
 /// An FMU with an instance of it.
 pub struct Fmu {
-    /// Its description.
     pub description: Description,
-    /// Its instance.
     pub instance: Instance,
     _folder: Folder,
 }
@@ -35,9 +33,6 @@ impl Fmu {
     }
 
     /// Opens the bytes of a file.
-    ///
-    /// # Errors
-    /// As [`open`](Self::open), without a name.
     pub fn read(file: impl Read + Seek) -> Result<Self, String> {
         let no_fmu = |error: &dyn std::fmt::Display| format!("it is no FMU: {error}");
         let folder = Folder::make().map_err(|error| error.to_string())?;

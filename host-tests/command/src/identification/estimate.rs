@@ -61,7 +61,6 @@ pub struct Figures {
     pub motor_inertia: Figure,
     /// Inertia on the load's side.
     pub load_inertia: Figure,
-    /// Stiffness.
     pub stiffness: Figure,
     /// Damping of the shaft, friction apart.
     pub damping: Figure,

@@ -10,7 +10,6 @@ use crate::recording::{Quantity, Recording};
 /// A machine that was identified.
 #[derive(Clone, Debug)]
 pub struct Identified {
-    /// The estimate.
     pub estimate: Estimate,
     /// How motion and torque were taken.
     pub setting: Setting,
@@ -35,9 +34,6 @@ pub enum NotIdentified {
 }
 
 /// The machine of a recording of torque and motion.
-///
-/// # Errors
-/// See [`NotIdentified`].
 pub fn identify(recording: &Recording, torque_constant: Option<f64>) -> Result<Identified, NotIdentified> {
     let torque = recording.torque(torque_constant)?;
     let motions = [
@@ -82,9 +78,6 @@ fn judged(estimate: &Estimate, improvement: f64) -> Result<(), Refusal> {
 }
 
 /// The machine of a table of a frequency response.
-///
-/// # Errors
-/// See [`NotIdentified`].
 pub fn identify_response(
     recording: &Recording,
     motion: Motion,

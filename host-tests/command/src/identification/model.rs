@@ -24,9 +24,7 @@ pub struct Model {
 pub enum Motion {
     /// Angle: in a recording the mean speed since the sample before.
     Angle,
-    /// Speed.
     Speed,
-    /// Acceleration.
     Acceleration,
 }
 

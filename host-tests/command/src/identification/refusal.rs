@@ -39,7 +39,6 @@ pub enum Refusal {
          of the same time"
     )]
     Unrelated,
-    /// A rigid machine explains it as well.
     #[error(
         "no resonance shows: a rigid machine explains the record as well (variance ratio {0:.1}, {LEAST:.0} are \
          expected); excite it more, or at higher frequencies"
@@ -60,7 +59,6 @@ pub enum Refusal {
     /// The estimate is no machine.
     #[error("the fit has {0}, which no machine has: check units and sign of torque and motion")]
     Impossible(&'static str),
-    /// The swing grows.
     #[error(
         "the fit of two masses has a damping ratio of {0:.3}, zero or above is expected: the machine may have a third \
          mass that swings in the band, a rope or shaft that goes slack, a gap, or a torque that was not recorded; \

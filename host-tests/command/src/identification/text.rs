@@ -48,7 +48,6 @@ pub fn table(identified: &Identified) -> Table {
 /// What a machine file needs beside the machine: from the recording, or from the user.
 #[derive(Clone, Copy, Debug)]
 pub struct Drive {
-    /// Lines of the encoder.
     pub encoder_lines: u32,
     /// Ticks a second.
     pub rate_hz: u32,

@@ -59,7 +59,6 @@ pub enum DamperKind {
     },
     /// A pendulum in the centrifugal field.
     Pendulum {
-        /// The pendulum.
         pendulum: CentrifugalPendulum,
         /// Order that it absorbs.
         order: f64,

@@ -31,7 +31,6 @@ pub struct Designs {
     pub two_masses: TwoMassDesign,
     /// The observer of one mass.
     pub rigid: RigidDesign,
-    /// The speed loop.
     pub speed_loop: SpeedLoopDesign,
     /// Acceleration of the setpoint (rad/s2).
     pub ramp: f64,
@@ -85,7 +84,6 @@ impl Remedy {
         slower.chain(faster).chain([0.75, 0.5, 0.25].map(Self::Tolerance))
     }
 
-    /// The machine with it.
     fn on(self, machine: &MachineFile) -> MachineFile {
         let mut changed = machine.clone();
         match self {
@@ -331,9 +329,6 @@ impl MachineFile {
     /// What a speed loop lacks: 6 dB and 30 degrees at the nominal machine, with two masses and with the rings of its
     /// dampers; stability within the tolerances, with two masses; stability with all the machine's vibrations. `None`
     /// where it has all.
-    ///
-    /// # Errors
-    /// An actuator or a rate that the loop cannot have.
     fn lacks(
         &self,
         two: &TwoMass,

@@ -101,9 +101,7 @@ pub enum Element {
     },
     /// A planetary set: one member on the present shaft, one held, what follows turns with the third.
     Planetary {
-        /// Teeth of the sun.
         sun_teeth: u32,
-        /// Teeth of the ring.
         ring_teeth: u32,
         /// Module (m).
         module: f64,
@@ -348,9 +346,6 @@ impl Element {
     }
 
     /// Puts the element at the end of a chain; a motor begins a new one.
-    ///
-    /// # Errors
-    /// The library's own sentence where the element cannot follow.
     pub fn follow(self, chain: Chain) -> Result<Chain, Error> {
         let chain = self.append(chain)?;
         chain.error().map_or(Ok(chain), Err)

@@ -22,7 +22,6 @@ pub(super) type Turning = (String, usize, f64);
 /// A piston engine, all cylinders alike.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Engine {
-    /// The cylinders.
     pub cylinders: Vec<Cylinder>,
     /// Whether the file has their places along the crankshaft.
     pub placed: bool,

@@ -12,16 +12,13 @@ pub const ENGINE: &str = "engine";
 /// The running range, speeds of the motor (rad/s).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Running {
-    /// Least.
     pub least: f64,
-    /// Greatest.
     pub greatest: f64,
 }
 
 /// Something that excites a fixed number of times on a turn of its shaft.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Excitation {
-    /// Name.
     pub name: String,
     /// Speed of the motor over that of the shaft that excites.
     pub ratio: f64,

@@ -25,7 +25,6 @@ macro_rules! factors {
                 match self { $(Self::$factor => $key),+ }
             }
 
-            /// Unit.
             pub const fn unit(self) -> &'static str {
                 match self { $(Self::$factor => $unit),+ }
             }
@@ -41,9 +40,7 @@ macro_rules! factors {
 factors! {
     /// Stiffness of the shafts.
     Stiffness = "stiffness", "stiffness", "of nominal", 1.0;
-    /// Inertia of the motor.
     MotorInertia = "motor-inertia", "motor_inertia", "of nominal", 1.0;
-    /// Inertia of the load.
     LoadInertia = "load-inertia", "load_inertia", "of nominal", 1.0;
     /// Efficiency of the gear, as a difference.
     Efficiency = "efficiency", "efficiency", "added", 0.0;
@@ -83,7 +80,6 @@ impl Factor {
 /// The range of a factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// The factor.
     pub factor: Factor,
     /// Least value.
     pub low: f64,

@@ -43,7 +43,6 @@ impl Quantity {
     pub const ROPE_STIFFNESS: Self = positive("N/m");
     /// Damping of a rope at the load, all falls together.
     pub const ROPE_DAMPING: Self = not_negative("N s/m");
-    /// Mass.
     pub const MASS: Self = positive("kg");
     /// Diameter; a kilometre is more than any drum has.
     pub const DIAMETER: Self = Quantity { least: 1e-6, most: 1e3, ..positive("m") };
@@ -79,9 +78,7 @@ impl Quantity {
     pub const BANDWIDTH: Self = Quantity { least: 1e-3, most: 0.999, ..positive("of the antiresonance") };
     /// Control ticks a second.
     pub const RATE: Self = Quantity { least: 1.0, most: 10_000_000.0, whole: true, ..positive("Hz") };
-    /// Torque.
     pub const TORQUE: Self = positive("N m");
-    /// Speed.
     pub const SPEED: Self = positive("rad/s");
     /// Resistance of a motor's circuit.
     pub const RESISTANCE: Self = positive("ohm");
@@ -103,13 +100,10 @@ impl Quantity {
     pub const BEARING: Self = positive("N/m");
     /// Coupling of the two directions of a bearing by its stiffness.
     pub const CROSS: Self = Quantity { least: -FAR, most: FAR, zero: true, whole: false, unit: "N/m" };
-    /// Damping of a bearing.
     pub const BEARING_DAMPING: Self = not_negative("N s/m");
-    /// Unbalance.
     pub const UNBALANCE: Self = not_negative("kg m");
     /// Phase or angle in degrees; ten turns either way are more than anybody writes.
     pub const DEGREES: Self = Quantity { unit: "degrees", least: -3600.0, most: 3600.0, zero: true, whole: false };
-    /// Time.
     pub const TIME: Self = positive("s");
     /// Frequency of something that repeats.
     pub const FREQUENCY: Self = positive("Hz");

@@ -84,9 +84,6 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
 }
 
 /// Reads a machine from a text for its modes, with any number of masses.
-///
-/// # Errors
-/// As [`parse`].
 pub fn parse_for_modes(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
     parse_up_to(name, text, usize::MAX)
 }

@@ -95,9 +95,6 @@ impl MachineFile {
 
     /// The machine as a plant that runs in lock-step: it hangs on its shafts, which carry its weight, with dry friction
     /// (N m at the motor) at its far end. A gear before the first shaft loses nothing.
-    ///
-    /// # Errors
-    /// What the plant refuses.
     pub fn plant(&self, friction: f64) -> Result<Plant, PlantError> {
         let (masses, shafts) = (self.chain.masses(), self.chain.shafts());
         let weight = self.chain.gravity_torque();

@@ -19,9 +19,6 @@ impl Line {
     }
 
     /// Puts an element at its end.
-    ///
-    /// # Errors
-    /// As [`Element::follow`].
     pub fn follow(&mut self, element: Element) -> Result<(), Error> {
         let first = self.masses.len() - self.end.masses().len();
         let longer = element.follow(self.end)?;
@@ -221,9 +218,6 @@ impl MachineFile {
     }
 
     /// One mass for the machine.
-    ///
-    /// # Errors
-    /// As [`Chain::try_rigid`].
     pub fn rigid(&self) -> Result<Rigid, Error> {
         self.train.as_ref().map_or_else(|| self.chain.try_rigid(), |train| Ok(train.rigid()))
     }

@@ -58,9 +58,6 @@ impl<'a> Table<'a> {
     }
 
     /// A number that must be there.
-    ///
-    /// # Errors
-    /// Missing, not a number, or out of the quantity's range.
     pub fn number(&mut self, key: &'static str, quantity: Quantity) -> Result<f64, Diagnostic> {
         match self.get(key) {
             Some(value) => self.in_range(key, value, quantity),
@@ -69,9 +66,6 @@ impl<'a> Table<'a> {
     }
 
     /// A number with a default where the key is missing.
-    ///
-    /// # Errors
-    /// Not a number, or out of the quantity's range.
     pub fn number_or(&mut self, key: &'static str, quantity: Quantity, default: f64) -> Result<f64, Diagnostic> {
         match self.get(key) {
             Some(value) => self.in_range(key, value, quantity),
@@ -86,18 +80,12 @@ impl<'a> Table<'a> {
     }
 
     /// A number that may be left out.
-    ///
-    /// # Errors
-    /// Not a number, or out of the quantity's range.
     pub fn number_if(&mut self, key: &'static str, quantity: Quantity) -> Result<Option<f64>, Diagnostic> {
         let Some(value) = self.get(key) else { return Ok(None) };
         self.in_range(key, value, quantity).map(Some)
     }
 
     /// A number, or a list of two, where the key is there.
-    ///
-    /// # Errors
-    /// Neither.
     pub fn number_or_pair(
         &mut self,
         key: &'static str,
@@ -114,9 +102,6 @@ impl<'a> Table<'a> {
     }
 
     /// A table that may be left out.
-    ///
-    /// # Errors
-    /// Not a table.
     pub fn table_if(&mut self, key: &'static str) -> Result<Option<Table<'a>>, Diagnostic> {
         if self.has(key) {
             return self.table(key).map(Some);
@@ -126,9 +111,6 @@ impl<'a> Table<'a> {
     }
 
     /// A list of tables that may be left out.
-    ///
-    /// # Errors
-    /// Not a list of tables.
     pub fn tables_if(&mut self, key: &'static str, of: &str) -> Result<Vec<(Range<usize>, Table<'a>)>, Diagnostic> {
         if self.has(key) {
             return self.tables_of(key, of);
@@ -138,9 +120,6 @@ impl<'a> Table<'a> {
     }
 
     /// A text that must be there.
-    ///
-    /// # Errors
-    /// Missing or not a text.
     pub fn text(&mut self, key: &'static str, expected: &str) -> Result<&'a str, Diagnostic> {
         match self.get(key) {
             Some(value) => value.get_ref().as_str().ok_or_else(|| self.wrong(key, expected)),
@@ -149,18 +128,12 @@ impl<'a> Table<'a> {
     }
 
     /// A text that may be left out.
-    ///
-    /// # Errors
-    /// Not a text.
     pub fn text_if(&mut self, key: &'static str, expected: &str) -> Result<Option<&'a str>, Diagnostic> {
         let Some(value) = self.get(key) else { return Ok(None) };
         value.get_ref().as_str().map(Some).ok_or_else(|| self.wrong(key, expected))
     }
 
     /// A table that must be there.
-    ///
-    /// # Errors
-    /// Missing or not a table.
     pub fn table(&mut self, key: &'static str) -> Result<Table<'a>, Diagnostic> {
         let expected = format!("a table [{key}]");
         let Some(value) = self.get(key) else {
@@ -172,17 +145,11 @@ impl<'a> Table<'a> {
     }
 
     /// A list of tables that must be there: each with the span of its heading.
-    ///
-    /// # Errors
-    /// Missing, empty, or not a list of tables.
     pub fn tables(&mut self, key: &'static str) -> Result<Vec<(Range<usize>, Table<'a>)>, Diagnostic> {
         self.tables_of(key, "part of the machine, the motor first")
     }
 
     /// A list of tables that must be there, one for each of something.
-    ///
-    /// # Errors
-    /// Missing, empty, or not a list of tables.
     pub fn tables_of(&mut self, key: &'static str, of: &str) -> Result<Vec<(Range<usize>, Table<'a>)>, Diagnostic> {
         let expected = format!("one table [[{key}]] for each {of}");
         let Some(value) = self.get(key) else {
@@ -206,9 +173,6 @@ impl<'a> Table<'a> {
     }
 
     /// A key that is there leaves no place for others, which say the same in another way.
-    ///
-    /// # Errors
-    /// One of them is there, too.
     pub fn instead_of(&self, key: &str, others: &[&str]) -> Result<(), Diagnostic> {
         let there = |(name, value): (&Spanned<toml::de::DeString<'_>>, &Spanned<DeValue<'_>>)| {
             let other = others.iter().find(|other| name.get_ref() == **other)?;
@@ -224,9 +188,6 @@ impl<'a> Table<'a> {
     }
 
     /// A truth with a default where the key is missing.
-    ///
-    /// # Errors
-    /// Neither true nor false.
     pub fn flag_or(&mut self, key: &'static str, default: bool) -> Result<bool, Diagnostic> {
         let Some(value) = self.get(key) else { return Ok(default) };
         match value.get_ref() {
@@ -236,9 +197,6 @@ impl<'a> Table<'a> {
     }
 
     /// A list of exactly `count` texts.
-    ///
-    /// # Errors
-    /// Missing, of another length, or not of texts.
     pub fn texts(&mut self, key: &'static str, count: usize, expected: &str) -> Result<Vec<&'a str>, Diagnostic> {
         let Some(value) = self.get(key) else { return Err(self.missing(key, expected)) };
         let list = value.get_ref().as_array().filter(|list| list.len() == count);
@@ -316,9 +274,6 @@ impl<'a> Table<'a> {
     }
 
     /// A list of values that must be there, each with its place.
-    ///
-    /// # Errors
-    /// Missing or not a list.
     pub fn items(&mut self, key: &'static str, expected: &str) -> Result<Vec<Item<'a>>, Diagnostic> {
         let Some(value) = self.get(key) else {
             return Err(self.missing(key, expected));
@@ -333,9 +288,6 @@ impl<'a> Table<'a> {
     }
 
     /// A truth that must be there.
-    ///
-    /// # Errors
-    /// Missing, or neither `true` nor `false`.
     pub fn truth(&mut self, key: &'static str) -> Result<bool, Diagnostic> {
         let expected = "true or false";
         match self.get(key) {
@@ -345,9 +297,6 @@ impl<'a> Table<'a> {
     }
 
     /// A list of tables that may be left out.
-    ///
-    /// # Errors
-    /// Not a list of tables.
     pub fn optional_tables(&mut self, key: &'static str) -> Result<Vec<Table<'a>>, Diagnostic> {
         if !self.has(key) {
             return Ok(Vec::new());
@@ -363,9 +312,6 @@ impl<'a> Table<'a> {
     }
 
     /// Ends the reading: an unknown key is a fault.
-    ///
-    /// # Errors
-    /// The first unknown key in the order of the text.
     pub fn finish(self) -> Result<(), Diagnostic> {
         let unknown = |name: &&Spanned<toml::de::DeString<'_>>| !self.asked.contains(&name.get_ref().as_ref());
         let Some(first) = self.table.keys().filter(unknown).min_by_key(|name| name.span().start) else {
@@ -398,9 +344,6 @@ impl<'a> Item<'a> {
     }
 
     /// The value as a number.
-    ///
-    /// # Errors
-    /// Not a number, or out of the quantity's range.
     pub fn number(&self, quantity: Quantity) -> Result<f64, Diagnostic> {
         number(self.value.get_ref())
             .filter(|&number| quantity.allows(number))
@@ -408,17 +351,11 @@ impl<'a> Item<'a> {
     }
 
     /// The value as a text.
-    ///
-    /// # Errors
-    /// Not a text.
     pub fn text(&self, expected: &str) -> Result<&'a str, Diagnostic> {
         self.value.get_ref().as_str().ok_or_else(|| self.wrong(expected))
     }
 
     /// The value as a pair of numbers.
-    ///
-    /// # Errors
-    /// Not a list of two numbers within these ranges.
     pub fn pair(&self, first: Quantity, second: Quantity, expected: &str) -> Result<(f64, f64), Diagnostic> {
         let list =
             self.value.get_ref().as_array().filter(|list| list.len() == 2).ok_or_else(|| self.wrong(expected))?;

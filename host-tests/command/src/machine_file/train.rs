@@ -99,7 +99,6 @@ const COORDINATES: usize = 200;
 /// A train as its file describes it, ready to run.
 #[derive(Debug, Clone)]
 pub struct TrainFile {
-    /// Its name.
     pub name: String,
     /// Names of the coordinates.
     pub coordinates: Vec<String>,
@@ -115,7 +114,6 @@ pub struct TrainFile {
     pub motion: Motion,
     /// The speeds of the first coordinate that it runs at, where the file says so.
     pub running: Option<Running>,
-    /// Its excitations.
     pub excitations: Vec<Excitation>,
     /// s.
     pub time: f64,
@@ -160,9 +158,6 @@ pub fn read_train(path: &Path) -> Result<TrainFile, Diagnostic> {
 }
 
 /// Reads a train from a text for its modes, which need no `[run]`.
-///
-/// # Errors
-/// As [`parse_train`].
 pub fn parse_train_for_modes(name: &str, text: &str) -> Result<TrainFile, Diagnostic> {
     parse(name, text, Asked::Modes)
 }

@@ -116,7 +116,6 @@ const VIBRATION: Units = &[
 ];
 
 impl Quantity {
-    /// Its name.
     pub fn name(self) -> &'static str {
         NAMES.iter().find(|(_, quantity)| *quantity == self).map_or("", |(name, _)| name)
     }
@@ -208,9 +207,7 @@ pub struct Scales {
 pub struct Column {
     /// Its place in a row.
     pub index: usize,
-    /// Its heading.
     pub heading: String,
-    /// Its quantity.
     pub quantity: Quantity,
     /// Factor to SI units; a level in decibels has none.
     pub factor: Option<f64>,
@@ -229,9 +226,6 @@ pub enum Unusable {
 
 impl Column {
     /// A column by its heading.
-    ///
-    /// # Errors
-    /// See `Unusable`.
     pub fn of_heading(index: usize, heading: &str, scales: Scales) -> Result<Self, Unusable> {
         let (name, unit) = parted(heading);
         let lower = name.to_lowercase();
@@ -241,9 +235,6 @@ impl Column {
     }
 
     /// A column that the user names: its quantity, in the unit that the user gives, or else its heading.
-    ///
-    /// # Errors
-    /// `Unusable::Fault`.
     pub fn named(
         index: usize,
         heading: &str,
@@ -256,9 +247,6 @@ impl Column {
     }
 
     /// A column of a quantity and a unit.
-    ///
-    /// # Errors
-    /// `Unusable::Fault`.
     pub fn of(
         index: usize,
         heading: &str,

@@ -43,9 +43,6 @@ impl Taken {
 
 /// All readings of samples from `start` (s) on, a `period` apart; the one that the recording's end cut off is there,
 /// refused as incomplete, where there is no other.
-///
-/// # Errors
-/// Settings that the library refuses.
 pub fn readings(
     vibration: &[f64],
     turning: Turning<'_>,

@@ -78,9 +78,6 @@ const DOUBLINGS: i32 = 12;
 
 /// Runs the observer over a recording, in `f32` and in fixed point, between gears with losses and with the time between
 /// samples (s) where there are some. `tick` counts.
-///
-/// # Errors
-/// The library's sentence, where constants do not fit `f32`.
 pub fn replay(
     signals: Signals,
     design: &Design,

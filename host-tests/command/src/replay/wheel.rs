@@ -90,7 +90,6 @@ impl FromStr for Wheel {
 /// What came of the edges.
 #[derive(Clone, Debug, Default)]
 pub struct Turned {
-    /// Edges.
     pub edges: usize,
     /// Teeth on a turn.
     pub teeth: usize,
@@ -160,9 +159,6 @@ impl Followed {
 }
 
 /// The angle of the wheel at each of these times (s), from the edges up to there.
-///
-/// # Errors
-/// As [`turn`].
 pub fn follow(wheel: &Wheel, edges: &[f64], ticks: &[f64]) -> Result<Followed, String> {
     by_teeth!(wheel, 1, angles(wheel, edges, ticks))
 }

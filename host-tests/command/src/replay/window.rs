@@ -18,7 +18,6 @@ pub struct Windows {
 pub struct Windowed {
     /// Time at which its last cycle was known to be over (s).
     pub until: f64,
-    /// Its cycles.
     pub cycles: u32,
     /// Speed and ripple, or why there is none.
     pub ripple: Result<Ripple, Unusable>,

@@ -25,7 +25,6 @@ pub struct Scope {
     pub rate_hz: Option<u32>,
     /// The records.
     pub store: Store,
-    /// Their channels.
     pub channels: Vec<Described>,
     /// Records that came.
     pub records: u64,
@@ -62,9 +61,6 @@ const PARTS: [(&str, &str, &str); 5] = [
 ];
 
 /// Serves the page until the program ends, at a port of the loopback address; 0 takes a free one.
-///
-/// # Errors
-/// A port that is taken.
 pub fn serve(scope: &Arc<Mutex<Scope>>, port: u16) -> io::Result<SocketAddr> {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))?;
     listener.set_nonblocking(true)?;

@@ -2,14 +2,14 @@
 
 use core::f64::consts::TAU;
 
-use driveline::design::{BacklashDesign, BacklashTuning, Disturbance, Encoder, Error, Rate};
+use driveline::design::{BacklashDesign, BacklashTuning, Disturbance, Encoder, Rate};
 use driveline::machine::{Damping, Gap, Inertia, Stiffness, TwoMass};
 use driveline::settings::Bases;
 
 /// Ticks a second.
 pub const RATE_HZ: u32 = 10_000;
 /// Lines of the encoder.
-pub const LINES: u32 = 2048;
+const LINES: u32 = 2048;
 /// Whole free travel of the gap (rad).
 pub const GAP: f64 = 0.01;
 
@@ -23,7 +23,6 @@ const DAMPING_RATIO: f64 = 0.02;
 pub struct Case {
     /// Inertias, and the twist under rated torque as a share of the gap.
     pub name: &'static str,
-    /// The machine.
     pub machine: TwoMass,
     /// Rated torque (N m).
     pub rated: f64,
@@ -96,17 +95,9 @@ impl Case {
     /// The library's design.
     ///
     /// # Panics
-    /// Where [`try_design`](Self::try_design) has an error.
+    /// A tuning that is out of range.
     pub fn design(&self) -> BacklashDesign {
         self.machine.backlash_observer(Rate::hz(RATE_HZ), self.encoder(), self.disturbance(), self.tuning)
-    }
-
-    /// The library's design.
-    ///
-    /// # Errors
-    /// A tuning that is out of range.
-    pub fn try_design(&self) -> Result<BacklashDesign, Error> {
-        self.machine.try_backlash_observer(Rate::hz(RATE_HZ), self.encoder(), self.disturbance(), self.tuning)
     }
 
     /// Bases of fixed point: shaft torques reach four times rated in an impact.

@@ -10,7 +10,6 @@ use driveline_solver::plant::{Chain, Plant, PlantError, Shaft};
 pub struct Drawn(u64);
 
 impl Drawn {
-    /// From a seed.
     pub fn new(seed: u64) -> Self {
         Drawn(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
     }
@@ -45,7 +44,6 @@ impl Kind {
     /// Those of the six machines.
     pub const ALL: [Kind; 4] = [Kind::Reversals, Kind::Torques, Kind::Rattling, Kind::Dragging];
 
-    /// Its name.
     pub const fn name(self) -> &'static str {
         match self {
             Kind::Reversals => "reversals",
@@ -98,9 +96,6 @@ pub struct Rig {
 
 impl Rig {
     /// A case at rest in the middle of its gap.
-    ///
-    /// # Errors
-    /// A figure of the case that is out of range.
     pub fn new(case: &Case, kind: Kind, seed: u64) -> Result<Self, PlantError> {
         let machine = &case.machine;
         let shaft = Shaft::elastic(machine.stiffness).damping(machine.damping).gap(GAP);
@@ -209,8 +204,6 @@ impl Rig {
 /// A recorded run.
 #[derive(Clone, Debug)]
 pub struct Course {
-    /// Actions.
-    pub kind: Kind,
     /// Angle and torque as reported to the drive.
     pub sensed: Vec<(u32, f64)>,
     /// Shaft torque (N m), load speed (rad/s) and twist (rad).
@@ -223,9 +216,6 @@ pub struct Course {
 
 impl Course {
     /// Runs a case for so many seconds.
-    ///
-    /// # Errors
-    /// As [`Rig::new`].
     pub fn record(case: &Case, kind: Kind, seed: u64, seconds: f64) -> Result<Self, PlantError> {
         let mut rig = Rig::new(case, kind, seed)?;
         let ticks = (seconds * f64::from(RATE_HZ)) as usize;
@@ -237,6 +227,6 @@ impl Course {
         }
         let largest = |k: usize| truth.iter().fold(0.0_f64, |peak, moment| peak.max(moment[k].abs()));
         let (peak, fastest) = (largest(0), largest(1));
-        Ok(Course { kind, sensed, truth, peak, fastest })
+        Ok(Course { sensed, truth, peak, fastest })
     }
 }

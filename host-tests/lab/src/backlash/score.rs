@@ -1,6 +1,6 @@
 //! Score of the estimates.
 
-use driveline::design::{BacklashDesign, Disturbance, Rate};
+use driveline::design::{Disturbance, Rate};
 use driveline::machine::{Chain, Inertia};
 use driveline::number::Fixed;
 use driveline::observer::{BacklashConfig, BacklashObserver, Gap, Observer, RigidConfig, RigidObserver};
@@ -31,11 +31,6 @@ impl<N: Gap> Library<N> {
     fn with(config: BacklashConfig<N>, bases: Bases, to: fn(f64) -> N, from: fn(N) -> f64) -> Self {
         Library { config, observer: BacklashObserver::at_rest(&config, 0, N::ZERO), bases, to, from }
     }
-
-    /// The observer itself.
-    pub fn observer(&self) -> &BacklashObserver<N> {
-        &self.observer
-    }
 }
 
 impl Library<f32> {
@@ -48,12 +43,7 @@ impl Library<f32> {
 impl Library<f64> {
     /// In `f64`.
     pub fn double(case: &Case) -> Self {
-        Library::designed(&case.design())
-    }
-
-    /// Of a design of one's own.
-    pub fn designed(design: &BacklashDesign) -> Self {
-        Library::with(BacklashConfig::<f64>::new(design, Bases::SI), Bases::SI, |x| x, |x| x)
+        Library::with(BacklashConfig::<f64>::new(&case.design(), Bases::SI), Bases::SI, |x| x, |x| x)
     }
 }
 
@@ -115,8 +105,8 @@ pub struct Score {
 }
 
 impl Score {
-    /// Lets an estimator run over a course; `watch` sees its estimate in every tick.
-    pub fn watched(course: &Course, estimator: &mut dyn Estimator, mut watch: impl FnMut(usize, [f64; 2])) -> Self {
+    /// Lets an estimator run over a course.
+    pub fn of(course: &Course, estimator: &mut dyn Estimator) -> Self {
         let (mut torque, mut speed) = (0.0, 0.0);
         for (tick, (&(angle, applied), truth)) in course.sensed.iter().zip(&course.truth).enumerate() {
             // The first angle is where the estimator starts.
@@ -126,17 +116,11 @@ impl Score {
             let estimate = estimator.estimate();
             torque += (estimate[0] - truth[0]).powi(2);
             speed += (estimate[1] - truth[1]).powi(2);
-            watch(tick, estimate);
         }
         let count = course.truth.len().max(1) as f64;
         Score {
             shaft_torque: (torque / count).sqrt() / course.peak,
             load_speed: (speed / count).sqrt() / course.fastest,
         }
-    }
-
-    /// Lets an estimator run over a course.
-    pub fn of(course: &Course, estimator: &mut dyn Estimator) -> Self {
-        Score::watched(course, estimator, |_, _| {})
     }
 }

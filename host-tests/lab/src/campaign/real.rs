@@ -14,9 +14,6 @@ use driveline_report::{Sample, Sampled};
 pub const SEED: u64 = 1;
 
 /// Runs a drive on the nominal machine and on the first draws of [`SEED`], on so many threads.
-///
-/// # Errors
-/// A sentence: values that no plant can have.
 pub fn sample(scene: &CampaignScene, drive: &Drive, draws: u64, threads: usize) -> Result<Sample, String> {
     let tolerances = scene.tolerances();
     let nominal = run(scene, drive, &Draw::nominal())?;

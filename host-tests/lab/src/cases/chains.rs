@@ -56,9 +56,6 @@ fn resonances(modes: &Modes) -> Vec<f64> {
 }
 
 /// Every chain, by the library's own solver; the first file's also by the full solver's Jacobi method.
-///
-/// # Errors
-/// A file that is not as expected.
 pub fn all() -> Result<Vec<Case>, String> {
     let mut all = Vec::new();
     let mut add = |name: &Value, compared, found, allowed| {

@@ -49,9 +49,6 @@ pub struct Point {
 }
 
 /// The pair of the file.
-///
-/// # Errors
-/// A file that is not as expected.
 pub fn pair() -> Result<Pair, String> {
     let cases = serde_json::from_str::<Cases>(FILE).map_err(|error| error.to_string())?.cases;
     cases.into_iter().next().ok_or_else(|| "the file has no pair".to_owned())
@@ -60,9 +57,6 @@ pub fn pair() -> Result<Pair, String> {
 impl Pair {
     /// Pinion and wheel on free shafts, driven and braked by torques in balance; the mesh at `x` with the closing speed
     /// `v`.
-    ///
-    /// # Errors
-    /// A figure out of range.
     pub fn drive(&self, frequency: f64, error: f64, gap: f64, x: f64, v: f64) -> Result<Motion, String> {
         let brake = -self.T1_Nm * self.rb2_m / self.rb1_m;
         let (double, single) = (self.k_double_pair_zone_N_m, self.k_single_pair_zone_N_m);
@@ -89,9 +83,6 @@ impl Pair {
     }
 
     /// The state that a linear train comes back to after a period, from three runs of one period.
-    ///
-    /// # Errors
-    /// As [`drive`](Self::drive).
     pub fn periodic(&self, point: &Point) -> Result<[f64; 2], String> {
         let period = 1.0 / point.mesh_frequency_Hz;
         let map = |x: f64, v: f64| -> Result<[f64; 2], String> {
@@ -110,9 +101,6 @@ impl Pair {
     }
 
     /// The solver's result at a point against the file: found, expected, and the reference of their difference.
-    ///
-    /// # Errors
-    /// As [`drive`](Self::drive); a watched signal without extremes.
     pub fn compared(&self, point: &Point) -> Result<Vec<(&'static str, [f64; 3])>, String> {
         let start = self.periodic(point)?;
         let [x, v] = point.x_state_at_start_of_double_zone;
@@ -173,9 +161,6 @@ impl Pair {
 }
 
 /// Every mesh frequency: the periodic motion and its extremes.
-///
-/// # Errors
-/// A file that is not as expected.
 pub fn all() -> Result<Vec<Case>, String> {
     let pair = pair()?;
     let case = |point: &Point| -> Result<Case, String> {

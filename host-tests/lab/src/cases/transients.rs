@@ -51,9 +51,6 @@ pub struct Expected {
 const TICKS: u32 = 2000;
 
 /// The cases of the file.
-///
-/// # Errors
-/// A file that is not as expected.
 pub fn transients() -> Result<Vec<Transient>, String> {
     Ok(serde_json::from_str::<Cases>(FILE).map_err(|error| error.to_string())?.cases)
 }
@@ -89,9 +86,6 @@ impl Transient {
     }
 
     /// Largest deviations of both speeds and of the torque from the reference, of their peaks.
-    ///
-    /// # Errors
-    /// As [`plant`](Self::plant).
     pub fn deviations(&self) -> Result<[f64; 3], String> {
         let mut plant = self.plant()?;
         let mut worst = [0.0_f64; 3];
@@ -109,9 +103,6 @@ impl Transient {
     }
 
     /// The run's proof of its own convergence.
-    ///
-    /// # Errors
-    /// As [`plant`](Self::plant); within, why it is not proven.
     pub fn proof(&self) -> Result<Result<Proof, NotProven>, String> {
         let mut run = Recording::new(self.plant()?);
         for _ in 0..TICKS {
@@ -122,9 +113,6 @@ impl Transient {
 }
 
 /// Every case: the course, and its proof by two other integrations.
-///
-/// # Errors
-/// A file that is not as expected.
 pub fn all() -> Result<Vec<Case>, String> {
     let mut all = Vec::new();
     for transient in transients()? {

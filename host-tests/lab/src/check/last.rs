@@ -7,7 +7,6 @@ use std::path::Path;
 use super::{Done, LONG, Step};
 use crate::stamp::Stamp;
 
-/// The page.
 #[derive(Debug)]
 pub struct Page {
     /// By the name of the step, in backticks, as the first cell has it.
@@ -26,9 +25,6 @@ The last result of each long run. `cargo lab check --long --markdown doc/makers/
 
 impl Page {
     /// Reads it; it is empty where it is not there.
-    ///
-    /// # Errors
-    /// What the system says.
     pub fn read(path: &Path) -> io::Result<Self> {
         let text = match fs::read_to_string(path) {
             Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),

@@ -47,7 +47,6 @@ pub struct Done {
     /// How long it took.
     #[serde(flatten)]
     pub took: Took,
-    /// The error.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
     /// Command to run it again.

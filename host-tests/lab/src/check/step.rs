@@ -30,7 +30,6 @@ pub fn skip(reason: impl std::fmt::Display) {
 
 /// A step of the check.
 pub struct Step {
-    /// Its name.
     pub name: &'static str,
     /// What it does, in a few words.
     pub content: &'static str,

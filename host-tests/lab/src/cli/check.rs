@@ -49,9 +49,6 @@ fn names() -> Vec<PossibleValue> {
 
 impl Check {
     /// Runs the steps.
-    ///
-    /// # Errors
-    /// The step that failed.
     pub fn execute(&self) -> Result<(), Failure> {
         workspace().map_err(|error| Failure::usage(error.to_string()))?;
         let file = self.markdown.as_ref().map(|path| results::Destination::chosen("results", path));

@@ -6,8 +6,7 @@ use clap::Args;
 use driveline_firmware::board::BOARDS;
 
 use crate::peers::{
-    Comparison, Images, Replay, SceneComparison, beside_observers, governors, peers_markdown, peers_page, scenes,
-    solvers,
+    Comparison, Images, Replay, SceneComparison, beside_observers, governors, peers_markdown, scenes, solvers,
 };
 use crate::stamp::Stamp;
 use cargo_driveline::cli::results::{Destination, check_writable};
@@ -33,13 +32,10 @@ pub struct Peers {
     /// Seconds of each run at most, 1 to 1000
     #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=1000))]
     seconds: u32,
-    /// File of the page [default: report/peers.html]
-    #[arg(long, value_name = "PATH")]
-    html: Option<PathBuf>,
     /// Where the tables go as Markdown, for the book
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
-    /// Print JSON, and write a page only with --html
+    /// Print JSON, and no table
     #[arg(long)]
     pub json: bool,
 }
@@ -54,9 +50,8 @@ impl Peers {
             let known: Vec<String> = scenes().map(|scene| format!("`{scene}`")).collect();
             return Err(Failure::usage(format!("there is no scene `{unknown}`; there are {}", known.join(", "))));
         }
-        let file = Destination::page_unless(self.json, self.html.as_deref(), "peers");
         let markdown = self.markdown.as_ref().map(|path| Destination::chosen("tables", path));
-        check_writable(&[], file.iter().chain(&markdown))?;
+        check_writable(&[], &markdown)?;
         ready(&Need::to_run(BOARDS))?;
         let wanted: Vec<&str> =
             scenes().filter(|scene| self.scene.is_empty() || self.scene.iter().any(|name| name == scene)).collect();
@@ -90,9 +85,6 @@ impl Peers {
                 say(format_args!("{}\n{table}", opening.lines().next().unwrap_or_default().trim_start_matches("## ")));
             }
         }
-        if let Some(markdown) = markdown {
-            markdown.write_and_say(&peers_markdown(&comparison), self.json)?;
-        }
-        file.map_or(Ok(()), |file| file.write_and_say(&peers_page(&comparison), self.json))
+        markdown.map_or(Ok(()), |file| file.write_and_say(&peers_markdown(&comparison), self.json))
     }
 }

@@ -1,4 +1,4 @@
-//! `cargo lab report`: every scene and every stiff case on one page.
+//! `cargo lab report`: every scene and every stiff case in one table and one file.
 
 use std::path::PathBuf;
 use std::thread;
@@ -9,22 +9,22 @@ use driveline_firmware::board::BOARDS;
 
 use crate::stamp::Stamp;
 use crate::survey::{Wanted, jobs, work};
-use crate::survey::{survey_markdown, survey_page, survey_table};
-use cargo_driveline::cli::results::{Destination, all, check_writable};
+use crate::survey::{survey_markdown, survey_table};
+use cargo_driveline::cli::results::{Destination, check_writable};
 use cargo_driveline::cli::setup::ready;
 use cargo_driveline::cli::{Failure, Progress, say, say_json};
 use driveline_qemu::setup::Need;
 
-/// Run every scene in all its variants, and every stiff or extreme case, and put it all on one page.
+/// Run every scene in all its variants, and every stiff or extreme case, and write all tables in Markdown.
 ///
 /// Installs what is missing (as `setup` does), builds the firmware that is not built yet, runs the closed loops side by
-/// side on the cores, and writes a page: errors beside the aims and why an aim is missed, error against instructions,
-/// flash and RAM, dynamic factors, verdicts on every case. A failure is reported in its place and affects nothing else.
+/// side on the cores, and writes a page of Markdown: errors beside the aims, instructions, flash and RAM, dynamic
+/// factors, verdicts on every case. A failure is reported in its place and affects nothing else.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo lab report
   cargo lab report --scene hoist spindle
-  cargo lab report --quick --html report/quick.html
+  cargo lab report --quick --markdown report/quick.md
   cargo lab report --markdown doc/makers/results.md
   cargo lab report --json > report.json")]
 pub struct Report {
@@ -34,13 +34,10 @@ pub struct Report {
     /// Print everything that was measured as JSON, and no table
     #[arg(long)]
     pub json: bool,
-    /// File of the page
-    #[arg(long, value_name = "FILE", default_value = "report/report.html")]
-    html: PathBuf,
-    /// Where the tables go as Markdown, for the book
-    #[arg(long, value_name = "FILE")]
-    markdown: Option<PathBuf>,
-    /// Two seconds of each scene, unproven, and a coarse sweep: for trying out, not for figures to quote
+    /// File of the page, in Markdown
+    #[arg(long, value_name = "FILE", default_value = "report/report.md")]
+    markdown: PathBuf,
+    /// Two seconds of each scene, unproven: for trying out, not for figures to quote
     #[arg(long)]
     quick: bool,
 }
@@ -52,9 +49,8 @@ impl Report {
     /// No such scene; a page that cannot be written; what could not be done, after the page is written.
     pub fn execute(&self) -> Result<(), Failure> {
         let wanted = Wanted::scenes(&self.scene).map_err(Failure::usage)?;
-        let file = Destination::chosen("page", &self.html);
-        let markdown = self.markdown.as_ref().map(|path| Destination::chosen("tables", path));
-        check_writable(&[], [Some(&file), markdown.as_ref()].into_iter().flatten())?;
+        let file = Destination::chosen("page", &self.markdown);
+        check_writable(&[], [&file])?;
         ready(&Need::to_run(BOARDS))?;
         let began = Instant::now();
         let (jobs, mut survey) = jobs(&wanted, self.quick);
@@ -75,10 +71,7 @@ impl Report {
         } else {
             say(survey_table(&survey));
         }
-        all([
-            file.write_and_say(&survey_page(&survey), self.json),
-            markdown.map_or(Ok(()), |file| file.write_and_say(&survey_markdown(&survey), self.json)),
-        ])?;
+        file.write_and_say(&survey_markdown(&survey), self.json)?;
         match survey.failures.as_slice() {
             [] => Ok(()),
             [first, rest @ ..] => {

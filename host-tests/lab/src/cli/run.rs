@@ -52,9 +52,6 @@ pub struct Run {
     /// All variants, not only the design's choice of observer and rate in the number that each core is for
     #[arg(long, conflicts_with = "variants")]
     all: bool,
-    /// On the page, too: stiff and extreme machines, and flash and RAM of a drive's parts
-    #[arg(long)]
-    sweep: bool,
     /// A short run of each variant: for trying out, not for figures to quote
     #[arg(long)]
     quick: bool,
@@ -73,9 +70,8 @@ impl Run {
             None => Variants::Chosen,
         };
         if let Some(scene) = Scene::named(scene) {
-            if self.sweep || self.quick {
-                let option = if self.sweep { "--sweep" } else { "--quick" };
-                return Err(Failure::usage(format!("{option} is for drivetrains, not for `{}`", scene.name)));
+            if self.quick {
+                return Err(Failure::usage(format!("--quick is for drivetrains, not for `{}`", scene.name)));
             }
             return balancing::run(&scene, Wanted { variants, html: self.html.as_deref(), json: self.json });
         }
@@ -84,7 +80,7 @@ impl Run {
             let names: Vec<String> = names.map(|name| format!("`{name}`")).collect();
             return Err(Failure::usage(format!("there is no scene `{scene}`; there are {}", names.join(", "))));
         }
-        let plan = Plan::of(scene, variants, self.quick, self.sweep).map_err(Failure::usage)?;
+        let plan = Plan::of(scene, variants, self.quick).map_err(Failure::usage)?;
         let file = Destination::page(self.html.as_deref(), scene);
         check_writable(&[], [&file])?;
         ready(&Need::to_run(plan.boards()))?;

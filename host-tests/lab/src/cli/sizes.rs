@@ -22,9 +22,6 @@ pub struct Sizes {
 
 impl Sizes {
     /// Builds the images and shows them.
-    ///
-    /// # Errors
-    /// An image that does not build.
     pub fn execute(&self) -> Result<(), Failure> {
         ready(&Need::to_build(BOARDS.iter().chain(FURTHER)))?;
         let bar = Progress::of(7);

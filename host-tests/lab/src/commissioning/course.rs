@@ -44,7 +44,6 @@ pub struct Course {
     pub reasons: [u32; 2],
     /// Responses: upwards and downwards; frequency, real part, imaginary part, deviation.
     pub responses: [Vec<[f64; 4]>; 2],
-    /// Ticks.
     pub ticks: u64,
     /// Instructions of the ticks: least, sum, most; zeros on the host.
     pub instructions: [u64; 3],
@@ -62,9 +61,6 @@ fn noise_of(seed: u64) -> Noise {
 }
 
 /// Runs a test on a plant. `seen` is given every tick's input and output.
-///
-/// # Errors
-/// What the link says.
 pub fn run(
     case: &Case,
     seed: u64,

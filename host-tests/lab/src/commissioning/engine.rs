@@ -29,9 +29,6 @@ pub struct Target {
 }
 
 /// Runs a case on the host.
-///
-/// # Errors
-/// The setting that is out of range.
 pub fn on_host(case: &Case, seed: u64, mut seen: impl FnMut(u64, u32)) -> Result<Course, Box<dyn Error>> {
     // It lives as long as the program: there are a few.
     let config: &'static TestConfig = Box::leak(Box::new(TestConfig::try_new(&case.settings)?));
@@ -55,9 +52,6 @@ impl Ticks for Beside {
 }
 
 /// Runs a case in QEMU on a board.
-///
-/// # Errors
-/// What the build, the image or the link says.
 pub fn in_qemu(
     case: &Case,
     board: Facts,

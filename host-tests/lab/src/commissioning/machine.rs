@@ -20,7 +20,6 @@ use driveline_solver::plant::{Chain, Plant, PlantError, Shaft, Start};
 /// A machine to be commissioned.
 #[derive(Clone)]
 pub struct Case {
-    /// Its name.
     pub name: String,
     /// Its number among the scene's machines.
     pub number: u32,

@@ -39,7 +39,6 @@ impl Row {
 /// A commissioning and what it is worth.
 #[derive(Clone, Debug, Serialize)]
 pub struct Verdict {
-    /// The machine.
     pub machine: String,
     /// Duration (s).
     pub seconds: f64,
@@ -49,7 +48,6 @@ pub struct Verdict {
     pub refused: Option<&'static str>,
     /// Why no gap was identified.
     pub gap_refused: Option<&'static str>,
-    /// The figures.
     pub figures: Vec<Row>,
     /// Gains designed for what was found, and error against those designed for the true machine.
     pub gains: Vec<Row>,
@@ -195,7 +193,6 @@ impl Verdict {
         said
     }
 
-    /// The page.
     pub fn page(&self) -> String {
         let fact = |sentence: String| match sentence.split_once(": ") {
             Some((name, value)) => Fact { name: name.into(), value: value.into() },

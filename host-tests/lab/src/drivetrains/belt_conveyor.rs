@@ -6,7 +6,6 @@ use driveline_firmware::scenes::belt_conveyor::{self as scene, BeltConveyor};
 use super::facts;
 use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::scenario::{Action, Machine, Scenario};
-use driveline_closed_loop::sensors::Encoder;
 use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft};
 
 /// Travel of the belt per angle of the motor (m/rad).
@@ -25,9 +24,6 @@ fn strand(plant: &Body) -> f64 {
 }
 
 /// The conveyor and its run.
-///
-/// # Errors
-/// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
     let plant = Chain::motor(1.6)
         .shaft(Shaft::elastic(8.0e4).damping(20.0), 0.2)
@@ -36,35 +32,24 @@ pub fn machine() -> Result<Machine, PlantError> {
         .program(LoadProgram::table(&[(20.0, 0.0), (25.0, 0.3 * RESISTANCE)]))
         .build()?;
     let rating = BeltConveyor::RATING;
-    let torque_noise = 0.01 * rating.torque.0;
     Ok(Machine {
-        name: scene::SCENE,
         summary: "A belt conveyor of 400 m: a soft start under load, more load, a stop.",
-        facts: facts::of_design(&BeltConveyor::OBSERVER, scene::COUNTS, torque_noise),
+        facts: facts::of_design::<BeltConveyor>(scene::COUNTS),
         notes: vec!["The shaft torque is the carrying strand's pull, at the motor."],
         chosen: ("semi-implicit", BeltConveyor::RATE_HZ),
         scenarios: vec![Scenario {
-            name: "soft start, more load, stop",
-            plant: plant.into(),
-            held: 0.0,
             actions: vec![
                 (0.5, Action::Release),
                 (0.5, Action::Setpoint(rating.speed.0)),
                 (32.0, Action::Setpoint(0.0)),
             ],
             duration: 48.0,
-            counted: true,
             marks: vec![(0.5, "soft start"), (20.0, "a third more load"), (32.0, "stop")],
-            law: None,
+            ..Scenario::of("soft start, more load, stop", plant)
         }],
-        encoder: Encoder::new(scene::COUNTS),
-        torque_noise,
         load: 2,
         shaft_torque: strand,
         load_torque: |plant| plant.load_torque(2),
-        told_brake: None,
-        told_friction: 0.0,
-        rated_speed: rating.speed.0,
-        bases: BeltConveyor::BASES,
+        ..facts::scene::<BeltConveyor>(scene::SCENE, scene::COUNTS)
     })
 }

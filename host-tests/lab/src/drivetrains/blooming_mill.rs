@@ -7,10 +7,10 @@ use driveline::configure::Machine as _;
 use driveline_firmware::scene::no_load::panel;
 use driveline_firmware::scenes::blooming_mill::BloomingMill;
 
+use super::facts;
 use driveline_closed_loop::departure::Departure;
 use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::scenario::{Action, Machine, Scenario};
-use driveline_closed_loop::sensors::Encoder;
 use driveline_solver::plant::{Chain, LoadProgram, Plant, PlantError, Shaft, Start};
 
 /// The rolls and the spindles.
@@ -41,18 +41,12 @@ fn chain(program: LoadProgram, by: &Departure) -> Result<Plant, PlantError> {
 /// The mill and its run: two passes with reversals as fast as the motor can.
 ///
 /// An ingot fills the bite within 60 ms (0.1 m of contact at 1.6 m/s) and leaves it within 60 ms.
-///
-/// # Errors
-/// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
     departing(&Departure::NONE)
 }
 
 /// A run for the learners with the spindles uncoupled: motor and pinion stand, with half of the friction, three steps
 /// of the speed in either direction. Spindle heads of a thousandth of the rolls' inertia stay.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn uncoupled(by: &Departure) -> Result<Scenario, PlantError> {
     let [slow, fast] = [0.3, 0.9].map(|share| share * BloomingMill::RATING.speed.0);
     let there = [slow, fast, slow];
@@ -69,21 +63,13 @@ pub fn uncoupled(by: &Departure) -> Result<Scenario, PlantError> {
     let end = 0.2 + 2.5 * speeds.len() as f64;
     actions.extend([(end, Action::Panel(panel::NO_LOAD, 0.0)), (end, Action::Setpoint(0.0))]);
     Ok(Scenario {
-        name: "spindles uncoupled",
-        plant: plant.into(),
-        held: 0.0,
         actions,
         duration: end + 1.0,
-        counted: true,
-        marks: Vec::new(),
-        law: None,
+        ..Scenario::of("spindles uncoupled", plant)
     })
 }
 
 /// The mill as it is.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let slow = 0.5 * BloomingMill::RATING.speed.0;
     let passes = Scenario {
@@ -115,21 +101,15 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
         law: None,
     };
     Ok(Machine {
-        name: driveline_firmware::scenes::blooming_mill::SCENE,
         summary: "A reversing blooming mill with a gap in its spindles: two passes, and reversals as fast as the motor \
             can.",
         facts: Vec::new(),
         notes: vec!["The shaft torque is that of the spindles."],
         chosen: ("slack", 10_000),
         scenarios: vec![passes],
-        encoder: Encoder::new(32_768),
-        torque_noise: 0.01 * BloomingMill::RATING.torque.0,
         load: LOAD,
         shaft_torque: spindle_torque,
         load_torque: |plant| plant.load_torque(LOAD),
-        told_brake: None,
-        told_friction: 0.0,
-        rated_speed: BloomingMill::RATING.speed.0,
-        bases: BloomingMill::BASES,
+        ..facts::scene::<BloomingMill>(driveline_firmware::scenes::blooming_mill::SCENE, 32_768)
     })
 }

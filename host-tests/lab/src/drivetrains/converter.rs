@@ -6,10 +6,10 @@
 use driveline::configure::Machine as _;
 use driveline_firmware::scenes::converter::Converter;
 
+use super::facts;
 use driveline_closed_loop::departure::Departure;
 use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::scenario::{Action, Machine, Scenario};
-use driveline_closed_loop::sensors::Encoder;
 use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft, Start};
 
 const RATIO: f64 = 690.0;
@@ -26,17 +26,11 @@ fn trunnion_torque(plant: &Body) -> f64 {
 }
 
 /// The converter and its run: tilting out of the slack, over the dead centre, back, and a stop.
-///
-/// # Errors
-/// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
     departing(&Departure::NONE)
 }
 
 /// The converter as it is.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let square = RATIO * RATIO;
     let trunnion = Shaft::elastic(3.6e9 / square * by.stiffness).damping(1.0e7 / square).gap(0.3 * by.gap);
@@ -48,9 +42,6 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
         .start(Start::Slack)
         .build()?;
     let tilting = Scenario {
-        name: "tilting through the backlash, over the dead centre and back",
-        plant: plant.into(),
-        held: 0.0,
         actions: vec![
             (0.1, Action::Release),
             (0.1, Action::Setpoint(Converter::RATING.speed.0)),
@@ -58,25 +49,18 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
             (9.0, Action::Setpoint(0.0)),
         ],
         duration: 11.0,
-        counted: true,
         marks: vec![(0.1, "tilting"), (4.0, "dead centre"), (5.5, "back"), (9.0, "stop")],
-        law: None,
+        ..Scenario::of("tilting through the backlash, over the dead centre and back", plant)
     };
     Ok(Machine {
-        name: driveline_firmware::scenes::converter::SCENE,
         summary: "A converter's tilting drive, four motors as one, with backlash in its gear.",
         facts: Vec::new(),
         notes: vec!["The shaft torque is that of the trunnion, at the motors."],
         chosen: ("slack", 10_000),
         scenarios: vec![tilting],
-        encoder: Encoder::new(8192),
-        torque_noise: 0.01 * Converter::RATING.torque.0,
         load: LOAD,
         shaft_torque: trunnion_torque,
         load_torque: |plant| plant.load_torque(LOAD),
-        told_brake: None,
-        told_friction: 0.0,
-        rated_speed: Converter::RATING.speed.0,
-        bases: Converter::BASES,
+        ..facts::scene::<Converter>(driveline_firmware::scenes::converter::SCENE, 8192)
     })
 }

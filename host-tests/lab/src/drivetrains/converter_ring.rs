@@ -9,7 +9,6 @@ use driveline_firmware::scenes::converter_ring::{self as scene, ConverterRing, M
 use super::facts::{self, fact};
 use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::scenario::{Action, Machine, Scenario};
-use driveline_closed_loop::sensors::Encoder;
 use driveline_solver::noise::Noise;
 use driveline_solver::plant::train::{Coordinate, Friction, Link, Source, Train};
 use driveline_solver::plant::{LoadProgram, PlantError};
@@ -37,7 +36,6 @@ pub struct Pinion {
     pub inertia: f64,
     /// Of the train's stiffness and damping.
     pub stiffness: f64,
-    /// Of its gap.
     pub gap: f64,
     /// Of the motor's torque.
     pub torque: f64,
@@ -71,9 +69,6 @@ fn trunnion(plant: &Body) -> f64 {
 }
 
 /// The drive at rest in the middle of its gaps.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn ring(pinions: &[Pinion; MOTORS]) -> Result<Body, PlantError> {
     let mut train = Train::new();
     for pinion in pinions {
@@ -98,25 +93,15 @@ pub fn ring(pinions: &[Pinion; MOTORS]) -> Result<Body, PlantError> {
 
 /// The converter and its run: tilting out of the gaps, over the dead centre, back, a skull that all four motors carry,
 /// and a stop.
-///
-/// # Errors
-/// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
     with(&[Pinion::NOMINAL; MOTORS])
 }
 
 /// The same with four drives that differ.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn with(pinions: &[Pinion; MOTORS]) -> Result<Machine, PlantError> {
-    let torque_noise = 0.01 * ConverterRing::RATING.torque.0;
-    let mut facts = facts::of_design(&ConverterRing::OBSERVER, 8192, torque_noise);
+    let mut facts = facts::of_design::<ConverterRing>(8192);
     facts.push(fact("torque bias", format!("{:.0} N m of preload at each pinion", ConverterRing::SHARING.preload)));
     let tilting = Scenario {
-        name: "tilting, a reversal under the bias, a load that all motors share",
-        plant: ring(pinions)?,
-        held: 0.0,
         actions: vec![
             (0.1, Action::Release),
             (0.1, Action::Setpoint(ConverterRing::RATING.speed.0)),
@@ -124,12 +109,10 @@ pub fn with(pinions: &[Pinion; MOTORS]) -> Result<Machine, PlantError> {
             (9.8, Action::Setpoint(0.0)),
         ],
         duration: 10.8,
-        counted: true,
         marks: vec![(0.1, "tilting"), (3.0, "dead centre"), (REVERSAL[0], "reversal"), (7.3, "skull"), (9.8, "stop")],
-        law: None,
+        ..Scenario::of("tilting, a reversal under the bias, a load that all motors share", ring(pinions)?)
     };
     Ok(Machine {
-        name: scene::SCENE,
         summary: "A converter's tilting drive with its four motors: load sharing and a torque bias against backlash.",
         facts,
         notes: vec![
@@ -138,14 +121,9 @@ pub fn with(pinions: &[Pinion; MOTORS]) -> Result<Machine, PlantError> {
         ],
         chosen: ("biased", ConverterRing::RATE_HZ),
         scenarios: vec![tilting],
-        encoder: Encoder::new(8192),
-        torque_noise,
         load: VESSEL,
         shaft_torque: trunnion,
         load_torque: |plant| plant.load_torque(VESSEL),
-        told_brake: None,
-        told_friction: 0.0,
-        rated_speed: ConverterRing::RATING.speed.0,
-        bases: ConverterRing::BASES,
+        ..facts::scene::<ConverterRing>(scene::SCENE, 8192)
     })
 }

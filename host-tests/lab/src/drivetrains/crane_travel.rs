@@ -9,7 +9,6 @@ use super::facts;
 use driveline_closed_loop::departure::Departure;
 use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::scenario::{Action, Machine, Scenario};
-use driveline_closed_loop::sensors::Encoder;
 use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft};
 
 /// Gravity (m/s2), the standard value of ISO 80000-3.
@@ -53,27 +52,18 @@ fn resistance(plant: &Body) -> f64 {
 }
 
 /// The crane and its run.
-///
-/// # Errors
-/// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
     departing(&Departure::NONE)
 }
 
 /// A run for the learners with an empty hook: a step of the speed on 67 m there and back, then a short way there. The
 /// travelling resistance is that of the lighter crane.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn empty_hook(by: &Departure) -> Result<Scenario, PlantError> {
     let speeds = [(SLOW, 33.0), (FAST, 33.0), (SLOW, 35.0), (-SLOW, 37.0), (-FAST, 33.0), (-SLOW, 35.0), (SLOW, 37.0)];
     learning("empty hook", panel::NO_LOAD, scene::HOOK, &speeds, by)
 }
 
 /// The same with a test weight, there and back.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn test_weight(by: &Departure) -> Result<Scenario, PlantError> {
     let speeds = [(SLOW, 33.0), (FAST, 33.0), (SLOW, 35.0), (-SLOW, 37.0), (-FAST, 33.0), (-SLOW, 35.0)];
     learning("test weight", panel::TEST_WEIGHT, scene::HOOK + scene::WEIGHT, &speeds, by)
@@ -104,21 +94,13 @@ fn learning(
     }
     actions.extend([(time, Action::Panel(key, 0.0)), (time, Action::Setpoint(0.0))]);
     Ok(Scenario {
-        name,
-        plant: plant.into(),
-        held: 0.0,
         actions,
         duration: time + 15.0,
-        counted: true,
-        marks: Vec::new(),
-        law: None,
+        ..Scenario::of(name, plant)
     })
 }
 
 /// The crane as it is.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let square = TRAVEL * TRAVEL;
     let plant = Chain::motor((0.2 + BRIDGE * square) * by.motor_inertia)
@@ -126,11 +108,9 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
         .shaft(Shaft::elastic(PENDULUM * by.load / by.rope), LOAD * square * by.load)
         .program(LoadProgram::table(&[(16.0, 0.0), (18.0, WIND), (24.0, WIND), (26.0, 0.0)]))
         .build()?;
-    let torque_noise = 0.01 * CraneTravel::RATING.torque.0;
     Ok(Machine {
-        name: scene::SCENE,
         summary: "A bridge crane of 16 t travels with its load swinging.",
-        facts: facts::of_design(&CraneTravel::OBSERVER, scene::COUNTS, torque_noise),
+        facts: facts::of_design::<CraneTravel>(scene::COUNTS),
         notes: vec![
             "The drive has nine tenths of the travelling resistance, as identified in commissioning. The unknown tenth \
                 adds to the shaft torque, otherwise the force of the swinging load, and to the load torque, otherwise \
@@ -139,27 +119,19 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
         ],
         chosen: ("semi-implicit", CraneTravel::RATE_HZ),
         scenarios: vec![Scenario {
-            name: "travel, a gust, slower",
-            plant: plant.into(),
-            held: 0.0,
             actions: vec![
                 (0.1, Action::Release),
                 (0.1, Action::Setpoint(CraneTravel::RATING.speed.0)),
                 (28.0, Action::Setpoint(0.4 * CraneTravel::RATING.speed.0)),
             ],
             duration: 40.0,
-            counted: true,
             marks: vec![(0.1, "travel"), (16.0, "gust"), (28.0, "slower")],
-            law: None,
+            ..Scenario::of("travel, a gust, slower", plant)
         }],
-        encoder: Encoder::new(scene::COUNTS),
-        torque_noise,
         load: 1,
         shaft_torque: push,
         load_torque: resistance,
-        told_brake: None,
         told_friction: TOLD,
-        rated_speed: CraneTravel::RATING.speed.0,
-        bases: CraneTravel::BASES,
+        ..facts::scene::<CraneTravel>(scene::SCENE, scene::COUNTS)
     })
 }

@@ -22,8 +22,6 @@ pub struct Ran {
     pub variant: Variant,
     /// One trace a scenario.
     pub traces: Vec<Trace>,
-    /// Bytes of code that a tick reaches.
-    pub tick_code: u64,
 }
 
 /// Purpose of a run.
@@ -37,9 +35,6 @@ pub struct Options {
 const QUICK: f64 = 2.0;
 
 /// Flash and RAM of the image that holds no drive, on a board.
-///
-/// # Errors
-/// What the build or the image says.
 pub fn empty(board: Facts, says: &dyn Fn(&str)) -> Result<(u64, u64), Box<dyn Error>> {
     let building = |line: &str| says(&format!("no drive, {}: building: {}", board.core, line.trim()));
     let image = build("empty/f32/none/10000", board, Program::ControlLoop, building)?;
@@ -105,7 +100,7 @@ pub fn run(
         bit_exact,
         ticks: moments().count() as u64,
     };
-    Ok(Ran { variant, traces, tick_code: contents.tick_code })
+    Ok(Ran { variant, traces })
 }
 
 /// Least and most cycles of the tick on the path that has the most.

@@ -1,17 +1,42 @@
 //! The report's facts and single figures.
 
-use driveline::configure::Machine as _;
-use driveline::design::TwoMassDesign;
+use driveline::configure::{self, Machine as _};
 use driveline::machine::{Chain, Match};
 use driveline_firmware::scenes::hoist::{CutAtRope, Hoist};
 
 use driveline_closed_loop::figures::{deviations, peaks};
 use driveline_closed_loop::lockstep::Trace;
 use driveline_closed_loop::scenario::Machine;
+use driveline_closed_loop::sensors::Encoder;
 use driveline_report::{Fact, Variant};
 
+/// Noise of the reported torque in every scene, of rated torque.
+const NOISE: f64 = 0.01;
+
+/// What follows from a scene's constants. Its runs, nodes and torques are put in; nothing is told of brake or friction.
+pub fn scene<M: configure::Machine>(name: &'static str, counts: u32) -> Machine {
+    Machine {
+        name,
+        summary: "",
+        facts: Vec::new(),
+        notes: Vec::new(),
+        chosen: ("", M::RATE_HZ),
+        scenarios: Vec::new(),
+        encoder: Encoder::new(counts),
+        torque_noise: NOISE * M::RATING.torque.0,
+        load: 0,
+        shaft_torque: |_| 0.0,
+        load_torque: |_| 0.0,
+        told_brake: None,
+        told_friction: 0.0,
+        rated_speed: M::RATING.speed.0,
+        bases: M::BASES,
+    }
+}
+
 /// The machine and its reduction.
-pub fn of_hoist(torque_noise: f64) -> Vec<Fact> {
+pub fn of_hoist() -> Vec<Fact> {
+    let torque_noise = NOISE * Hoist::<10_000>::RATING.torque.0;
     let (two, cut) = (Hoist::<10_000>::TWO_MASS, CutAtRope::<10_000>::TWO_MASS);
     let modal = Chain::reduce(&Hoist::<10_000>::CHAIN, Match::ModalTruncation);
     let hertz = |rate: f64| rate / core::f64::consts::TAU;
@@ -65,7 +90,8 @@ pub fn of_hoist(torque_noise: f64) -> Vec<Fact> {
 }
 
 /// A machine as its observer has it, and what the design says of it.
-pub fn of_design(design: &TwoMassDesign, counts: u32, torque_noise: f64) -> Vec<Fact> {
+pub fn of_design<M: configure::Machine>(counts: u32) -> Vec<Fact> {
+    let (design, torque_noise) = (M::OBSERVER, NOISE * M::RATING.torque.0);
     let two = &design.machine;
     let hertz = |rate: f64| rate / core::f64::consts::TAU;
     let left_out = if two.error.next_mode.is_finite() {
@@ -148,7 +174,6 @@ pub fn notes(machine: &Machine, quick: bool) -> Vec<String> {
     notes.map(|note| (*note).to_owned()).collect()
 }
 
-/// A fact by its name.
 pub fn fact(name: &str, value: String) -> Fact {
     Fact { name: name.into(), value }
 }

@@ -3,10 +3,9 @@
 use driveline::configure::Machine as _;
 use driveline_firmware::scenes::fan::{self, Fan};
 
-use super::facts::fact;
+use super::facts::{self, fact};
 use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::scenario::{Action, Law, Machine, Scenario};
-use driveline_closed_loop::sensors::Encoder;
 use driveline_solver::plant::{Chain, PlantError, Shaft};
 
 /// Torque of the air at rated speed (N m): nine tenths of rated torque.
@@ -22,15 +21,11 @@ fn air(fan: &Body) -> f64 {
 }
 
 /// The fan and its run.
-///
-/// # Errors
-/// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
     let plant = Chain::motor(0.35).shaft(Shaft::elastic(1.2e5).damping(8.0), 4.5).coulomb(4.0).build()?;
     let torque_noise = 0.01 * Fan::RATING.torque.0;
     let two = Fan::TWO_MASS;
     Ok(Machine {
-        name: fan::SCENE,
         summary: "A fan of 45 kW: the smallest drive, one mass and a speed loop.",
         facts: vec![
             fact("inertia", format!("{:.2} kg m²", Fan::CHAIN.rigid().inertia)),
@@ -55,14 +50,9 @@ pub fn machine() -> Result<Machine, PlantError> {
             marks: vec![(0.1, "run-up"), (14.0, "slower"), (22.0, "faster")],
             law: Some(Law { node: 1, torque: air }),
         }],
-        encoder: Encoder::new(fan::COUNTS),
-        torque_noise,
         load: 1,
         shaft_torque: coupling,
         load_torque: |plant| plant.load_torque(1),
-        told_brake: None,
-        told_friction: 0.0,
-        rated_speed: Fan::RATING.speed.0,
-        bases: Fan::BASES,
+        ..facts::scene::<Fan>(fan::SCENE, fan::COUNTS)
     })
 }

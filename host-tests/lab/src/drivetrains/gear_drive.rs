@@ -9,7 +9,6 @@ use driveline_firmware::scenes::gear_drive::{self as scene, GearDrive};
 use super::facts;
 use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::scenario::{Action, Machine, Scenario};
-use driveline_closed_loop::sensors::Encoder;
 use driveline_solver::plant::train::{GearBody, GearPair, Motion, Source, Teeth, Train, Variation};
 use driveline_solver::plant::{LoadProgram, PlantError};
 
@@ -96,15 +95,10 @@ pub fn body(motion: Motion) -> Body {
 }
 
 /// The drive and its run.
-///
-/// # Errors
-/// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
-    let torque_noise = 0.01 * GearDrive::RATING.torque.0;
     Ok(Machine {
-        name: scene::SCENE,
         summary: "A single-stage gear drive of 37 kW whose teeth excite it: run-up, a load that comes and goes.",
-        facts: facts::of_design(&GearDrive::OBSERVER, scene::COUNTS, torque_noise),
+        facts: facts::of_design::<GearDrive>(scene::COUNTS),
         notes: vec![
             "The shaft torque is that between wheel and driven machine, at the motor.",
             "The full plant turns, moves and tilts in fourteen coordinates, with the pairs of teeth in contact and an \
@@ -112,23 +106,14 @@ pub fn machine() -> Result<Machine, PlantError> {
         ],
         chosen: ("exact", GearDrive::RATE_HZ),
         scenarios: vec![Scenario {
-            name: "run-up, a load that comes and goes",
-            plant: body(train(TOOTH_ERROR).build()?),
-            held: 0.0,
             actions: vec![(0.05, Action::Release), (0.05, Action::Setpoint(GearDrive::RATING.speed.0))],
             duration: 3.0,
-            counted: true,
             marks: vec![(0.05, "run-up"), (2.0, "load"), (2.5, "off")],
-            law: None,
+            ..Scenario::of("run-up, a load that comes and goes", body(train(TOOTH_ERROR).build()?))
         }],
-        encoder: Encoder::new(scene::COUNTS),
-        torque_noise,
         load: LOAD,
         shaft_torque: |plant| plant.shaft_torque(GearPair::OUTPUT) / RATIO,
         load_torque: |plant| plant.load_torque(LOAD),
-        told_brake: None,
-        told_friction: 0.0,
-        rated_speed: GearDrive::RATING.speed.0,
-        bases: GearDrive::BASES,
+        ..facts::scene::<GearDrive>(scene::SCENE, scene::COUNTS)
     })
 }

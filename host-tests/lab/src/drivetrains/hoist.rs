@@ -9,7 +9,6 @@ use driveline_firmware::scenes::hoist::{Hoist, panel};
 use super::facts;
 use driveline_closed_loop::departure::Departure;
 use driveline_closed_loop::scenario::{Action, Machine, Scenario};
-use driveline_closed_loop::sensors::Encoder;
 use driveline_solver::plant::{Chain, LoadProgram, Plant, PlantError, Shaft, Start};
 
 /// Gravity (m/s2), the standard value of ISO 80000-3.
@@ -77,36 +76,26 @@ const RELEASE: [(f64, Action); 3] =
 /// Half a load more is picked up within a second, as slings let it be; that it came at once is shown beside, and not
 /// counted: the load would gain 10 % of rated speed before a motor on a 3 Hz rope had moved by one count of its
 /// encoder, whatever the observer.
-///
-/// # Errors
-/// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
     let by = &Departure::NONE;
     let hoisting = (0.2, Action::Setpoint(Hoist::<10_000>::RATING.speed.0));
     let pretensioned = Scenario {
-        name: "pretensioned start, half a load more, lowering",
-        plant: hanging(LoadProgram::table(&[(4.0, 0.0), (5.0, 0.5 * WEIGHT)]), by)?.into(),
         held: WEIGHT,
         actions: [&RELEASE[..], &[hoisting, (6.0, Action::Setpoint(-Hoist::<10_000>::RATING.speed.0))]].concat(),
         duration: 12.0,
-        counted: true,
         marks: vec![(0.2, "brake opens"), (4.0, "half a load more"), (6.0, "reversal")],
-        law: None,
+        ..Scenario::of("pretensioned start, half a load more, lowering", hanging(LoadProgram::table(&[(4.0, 0.0), (5.0, 0.5 * WEIGHT)]), by)?)
     };
     let slack = Scenario {
-        name: "slack-rope start",
         // On the ground: what holds the load until the rope carries its weight, and is its weight once it is lifted.
-        plant: chain(0.0, by).coulomb(WEIGHT).start(Start::Rest).build()?.into(),
-        held: 0.0,
         actions: vec![
             (0.0, Action::Setpoint(CREEP)),
             (0.1, Action::Release),
             (4.0, Action::Setpoint(Hoist::<10_000>::RATING.speed.0)),
         ],
         duration: 8.0,
-        counted: true,
         marks: vec![(0.1, "creep"), (4.0, "hoist")],
-        law: None,
+        ..Scenario::of("slack-rope start", chain(0.0, by).coulomb(WEIGHT).start(Start::Rest).build()?)
     };
     let sudden = Scenario {
         name: "half a load more at once",
@@ -123,9 +112,6 @@ pub fn machine() -> Result<Machine, PlantError> {
 
 /// The hoist as it is: one lift with the weight on the hook held, up at rated speed and down at half of it. The rope
 /// has its length at the top.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let up = Hoist::<10_000>::RATING.speed.0;
     let lift = lift("a lift", by, None, &[(0.2, up), (3.0, -0.5 * up)], 8.0)?;
@@ -134,9 +120,6 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
 
 /// Runs for the learners, with known loads: an empty hook and a test weight, up and down at rated speed, then steps of
 /// the speed.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn test_lifts(by: &Departure) -> Result<Vec<Scenario>, PlantError> {
     let up = Hoist::<10_000>::RATING.speed.0;
     let (fall, steps, lasts) = (0.45 * up, 33.5, 3.5);
@@ -148,18 +131,6 @@ pub fn test_lifts(by: &Departure) -> Result<Vec<Scenario>, PlantError> {
         lift("empty hook", &load(500.0), Some(500.0), &lifts, 31.5)?,
         lift("test weight", &load(MASS), Some(MASS), &course, steps + 6.0 * lasts)?,
     ])
-}
-
-/// A load (kg) from 30 m to 5 m of rope at rated speed, named for the learners.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
-pub fn whole_height(mass: f64) -> Result<Machine, PlantError> {
-    let up = Hoist::<10_000>::RATING.speed.0;
-    let by = Departure { load: mass / MASS, rope: 5.0 / LENGTH, ..Departure::NONE };
-    // a ramp at either end has the travel of one second at rated speed
-    let stop = 0.2 + 25.0 / (TRAVEL * up);
-    Ok(with(vec![lift("the whole height", &by, Some(mass), &[(0.2, up), (stop, 0.0)], stop + 3.0)?]))
 }
 
 /// A load that hangs on the brake, and its speeds from the times on that they are set at.
@@ -184,14 +155,11 @@ fn lift(
     }));
     actions.sort_by(|(one, _), (other, _)| one.total_cmp(other));
     Ok(Scenario {
-        name,
-        plant: hanging(LoadProgram::steps(&[]), &at(start))?.into(),
         held: WEIGHT * by.load,
         actions,
         duration,
-        counted: true,
         marks: vec![(0.2, "brake opens")],
-        law: None,
+        ..Scenario::of(name, hanging(LoadProgram::steps(&[]), &at(start))?)
     })
 }
 
@@ -214,12 +182,10 @@ fn wound(speeds: &[(f64, f64)], duration: f64) -> Vec<(f64, f64)> {
 
 /// The machine with these runs.
 fn with(scenarios: Vec<Scenario>) -> Machine {
-    let torque_noise = 0.01 * Hoist::<10_000>::RATING.torque.0;
     Machine {
-        name: driveline_firmware::scenes::hoist::SCENE,
         summary: "A 12 t crane hoist, observed and governed from the motor's angle and torque alone: the firmware \
                   of every variant runs in QEMU, tick by tick against a full solver of the whole machine.",
-        facts: facts::of_hoist(torque_noise),
+        facts: facts::of_hoist(),
         notes: vec![
             "The shaft torque is the rope's pull at the motor, behind the gear's loss.",
             "The textbook cut, the modal truncation and the match of resonance and antiresonance give equal estimates \
@@ -231,14 +197,9 @@ fn with(scenarios: Vec<Scenario>) -> Machine {
         ],
         chosen: ("reduced", 10_000),
         scenarios,
-        encoder: Encoder::new(8192),
-        torque_noise,
         load: LOAD,
         shaft_torque: |plant| plant.torque_behind_gear(ROPE_SHAFT),
         load_torque: |plant| plant.load_torque(LOAD),
-        told_brake: None,
-        told_friction: 0.0,
-        rated_speed: Hoist::<10_000>::RATING.speed.0,
-        bases: Hoist::<10_000>::BASES,
+        ..facts::scene::<Hoist<10_000>>(driveline_firmware::scenes::hoist::SCENE, 8192)
     }
 }

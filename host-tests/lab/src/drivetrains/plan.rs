@@ -7,12 +7,10 @@ use std::thread;
 use driveline_firmware::board::Facts;
 
 use super::engine::{self, Options, Ran};
-use super::{SCENES, facts, other_steps};
+use super::{SCENES, facts};
 use crate::candidates::{Candidate, candidates};
-use crate::sweep;
 use driveline_closed_loop::scenario::Machine;
 use driveline_qemu::clone::workspace;
-use driveline_qemu::image::compositions;
 use driveline_qemu::measure::budgets::Budgets;
 use driveline_report::{Budget, Report};
 
@@ -21,8 +19,6 @@ pub struct Plan {
     machine: Machine,
     candidates: Vec<Candidate>,
     options: Options,
-    /// Whether the stiff and extreme machines and the sizes of compositions are put on its page.
-    sweep: bool,
 }
 
 /// Which variants of a scene are run.
@@ -37,11 +33,8 @@ pub enum Variants<'a> {
 }
 
 impl Plan {
-    /// The run of some variants of a scene; with `sweep`, of the stiff and extreme machines too.
-    ///
-    /// # Errors
-    /// A sentence: no such scene, or no such variant.
-    pub fn of(scene: &str, variants: Variants<'_>, quick: bool, sweep: bool) -> Result<Self, String> {
+    /// The run of some variants of a scene.
+    pub fn of(scene: &str, variants: Variants<'_>, quick: bool) -> Result<Self, String> {
         let Some((_, machine)) = SCENES.iter().find(|(name, _)| *name == scene) else {
             let names: Vec<String> = SCENES.iter().map(|(name, _)| format!("`{name}`")).collect();
             return Err(format!("there is no drivetrain `{scene}`; there are {}", names.join(", ")));
@@ -62,7 +55,7 @@ impl Plan {
                 some
             }
         };
-        Ok(Plan { machine, candidates, options: Options { quick }, sweep })
+        Ok(Plan { machine, candidates, options: Options { quick } })
     }
 
     /// The boards that it runs on.
@@ -72,7 +65,7 @@ impl Plan {
 
     /// Steps of the run, for its progress.
     pub fn steps(&self) -> u64 {
-        self.candidates.len() as u64 + if self.sweep { 2 } else { 0 }
+        self.candidates.len() as u64
     }
 
     /// Runs it. `says` names what is under way, `step` counts.
@@ -91,20 +84,10 @@ impl Plan {
         for candidate in &self.candidates {
             let base = bases.iter().find(|(core, _)| *core == candidate.board.core).ok_or("no empty image")?.1;
             let ran = engine::run(&self.machine, candidate, base, self.options, says)?;
-            self.add(&mut report, candidate, &ran)?;
+            self.add(&mut report, candidate, &ran);
             step();
         }
         self.budgets(&mut report)?;
-        if self.sweep {
-            says("flash and RAM of a drive's parts");
-            report.compositions = compositions(|text| says(text))?;
-            step();
-            says("stiff and extreme machines");
-            report.sweeps = sweep::run(self.options.quick, |done, all| {
-                says(&format!("stiff and extreme machines, {done} of {all}"))
-            });
-            step();
-        }
         Ok(report)
     }
 
@@ -136,8 +119,8 @@ impl Plan {
         })
     }
 
-    /// A variant's figures, its courses where they are worth a plot, and the other steps on its inputs.
-    fn add(&self, report: &mut Report, candidate: &Candidate, ran: &Ran) -> Result<(), Box<dyn Error>> {
+    /// A variant's figures, and its courses where they are worth a plot.
+    fn add(&self, report: &mut Report, candidate: &Candidate, ran: &Ran) {
         report.variants.push(ran.variant.clone());
         let (chosen, rate_hz) = self.machine.chosen;
         if candidate.rate_hz() == rate_hz && candidate.part(2) != "cut" {
@@ -147,13 +130,9 @@ impl Plan {
                 if candidate.part(2) == chosen && candidate.part(1) == "f32" { 0 } else { report.trajectories.len() };
             report.trajectories.splice(at..at, courses);
         }
-        if candidate.part(0) == "hoist" && candidate.part(1) == "f32" && candidate.part(2) == chosen {
-            report.comparisons.extend(other_steps::of_hoist(&self.machine, candidate.rate_hz(), ran)?);
-        }
         if candidate.part(2) == chosen && candidate.rate_hz() == rate_hz {
             report.facts.extend(facts::of_sudden(&self.machine, &ran.variant, &ran.traces));
         }
-        Ok(())
     }
 
     /// Budgets against the measurements in closed loop.

@@ -9,7 +9,6 @@ use super::facts;
 use driveline_closed_loop::departure::Departure;
 use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::scenario::{Action, Machine, Scenario};
-use driveline_closed_loop::sensors::Encoder;
 use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft};
 
 /// Friction of the belt at the motor (N m), half of rated torque.
@@ -28,17 +27,11 @@ fn shaft(plant: &Body) -> f64 {
 }
 
 /// The drive and its run.
-///
-/// # Errors
-/// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
     departing(&Departure::NONE)
 }
 
 /// The drive as it is.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let (sun, planet, ring, module) = (20.0, 35.0, 90.0, 0.004);
     // A planet rolls in the held ring.
@@ -52,11 +45,9 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
         .coulomb(BELT)
         .program(LoadProgram::table(&[(6.0, 0.0), (7.0, 0.5 * BELT)]))
         .build()?;
-    let torque_noise = 0.01 * PlanetaryDrive::RATING.torque.0;
     Ok(Machine {
-        name: scene::SCENE,
         summary: "A conveyor's drum behind a planetary set: a start under load, more load, a stop.",
-        facts: facts::of_design(&PlanetaryDrive::OBSERVER, scene::COUNTS, torque_noise),
+        facts: facts::of_design::<PlanetaryDrive>(scene::COUNTS),
         notes: vec![
             "The shaft torque is that behind the set's loss, at the motor.",
             "By the swings that a rigid observer would miss it would do here; it has to be tuned so lively, lest the \
@@ -65,27 +56,18 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
         ],
         chosen: ("exact", PlanetaryDrive::RATE_HZ),
         scenarios: vec![Scenario {
-            name: "start under load, more load, slower",
-            plant: plant.into(),
-            held: 0.0,
             actions: vec![
                 (0.1, Action::Release),
                 (0.1, Action::Setpoint(PlanetaryDrive::RATING.speed.0)),
                 (9.0, Action::Setpoint(0.3 * PlanetaryDrive::RATING.speed.0)),
             ],
             duration: 13.0,
-            counted: true,
             marks: vec![(0.1, "start"), (6.0, "half as much load more"), (9.0, "slower")],
-            law: None,
+            ..Scenario::of("start under load, more load, slower", plant)
         }],
-        encoder: Encoder::new(scene::COUNTS),
-        torque_noise,
         load: 1,
         shaft_torque: shaft,
         load_torque: |plant| plant.load_torque(1),
-        told_brake: None,
-        told_friction: 0.0,
-        rated_speed: PlanetaryDrive::RATING.speed.0,
-        bases: PlanetaryDrive::BASES,
+        ..facts::scene::<PlanetaryDrive>(scene::SCENE, scene::COUNTS)
     })
 }

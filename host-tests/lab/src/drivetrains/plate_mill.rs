@@ -7,7 +7,6 @@ use driveline_firmware::scenes::plate_mill::{self as scene, PlateMill};
 use super::facts;
 use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::scenario::{Action, Machine, Scenario};
-use driveline_closed_loop::sensors::Encoder;
 use driveline_solver::plant::train::{Coordinate, Link, Source, Train};
 use driveline_solver::plant::{LoadProgram, PlantError};
 
@@ -30,11 +29,7 @@ fn plate(share: f64) -> Source {
 }
 
 /// The mill and its run.
-///
-/// # Errors
-/// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
-    let torque_noise = 0.01 * PlateMill::RATING.torque.0;
     // friction of the roll bearings: 5 % of rated torque at rated speed
     let friction = 0.025 * PlateMill::RATING.torque.0 / PlateMill::RATING.speed.0;
     let motion = Train::new()
@@ -47,32 +42,22 @@ pub fn machine() -> Result<Machine, PlantError> {
         .link(Link::shaft(STAND, LOWER, 1.4e8).damping(3.6e4))
         .build()?;
     Ok(Machine {
-        name: scene::SCENE,
         summary: "A plate mill's stand with an upper and a lower spindle, a branched train: run-up and a plate.",
-        facts: facts::of_design(&PlateMill::OBSERVER, 32_768, torque_noise),
+        facts: facts::of_design::<PlateMill>(32_768),
         notes: vec![
             "The shaft torque is the sum of both spindles'; the load speed is the upper roll's, which swings against \
                 the lower one.",
         ],
         chosen: ("exact", PlateMill::RATE_HZ),
         scenarios: vec![Scenario {
-            name: "run-up, a plate",
-            plant: Body::train(motion, &[]),
-            held: 0.0,
             actions: vec![(0.1, Action::Release), (0.1, Action::Setpoint(PlateMill::RATING.speed.0))],
             duration: 5.5,
-            counted: true,
             marks: vec![(0.1, "run-up"), (3.0, "bite"), (4.2, "out")],
-            law: None,
+            ..Scenario::of("run-up, a plate", Body::train(motion, &[]))
         }],
-        encoder: Encoder::new(32_768),
-        torque_noise,
         load: UPPER,
         shaft_torque: |plant| SPINDLES.iter().map(|&spindle| plant.shaft_torque(spindle)).sum(),
         load_torque: |plant| [UPPER, LOWER].iter().map(|&roll| plant.load_torque(roll)).sum(),
-        told_brake: None,
-        told_friction: 0.0,
-        rated_speed: PlateMill::RATING.speed.0,
-        bases: PlateMill::BASES,
+        ..facts::scene::<PlateMill>(scene::SCENE, 32_768)
     })
 }

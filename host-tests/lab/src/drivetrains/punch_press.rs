@@ -7,10 +7,9 @@ use driveline::configure::HasCrank as _;
 use driveline::configure::Machine as _;
 use driveline_firmware::scenes::punch_press::{self as scene, PunchPress};
 
-use super::facts::fact;
+use super::facts::{self, fact};
 use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::scenario::{Action, Law, Machine, Scenario};
-use driveline_closed_loop::sensors::Encoder;
 use driveline_solver::plant::PlantError;
 use driveline_solver::plant::train::{Coordinate, Crank, Link, Train};
 
@@ -71,9 +70,6 @@ fn shaft(press: &Body) -> f64 {
 }
 
 /// The press at its top, with an inertia more on the flywheel (kg m2).
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn press(added: f64) -> Result<Body, PlantError> {
     let motion = Train::new()
         .coordinate(Coordinate::new(4.8 + added))
@@ -84,15 +80,11 @@ pub fn press(added: f64) -> Result<Body, PlantError> {
 }
 
 /// The press and its run.
-///
-/// # Errors
-/// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
     let torque_noise = 0.01 * PunchPress::RATING.torque.0;
     let [least, most] = PunchPress::CRANKED.extremes();
     let sd = PunchPress::CRANK_OBSERVER.rigid.standard_deviation;
     Ok(Machine {
-        name: scene::SCENE,
         summary: "An eccentric punch press with a flywheel: run-up, continuous strokes, and on without plate.",
         facts: vec![
             fact("inertia at the motor", format!("{least:.3} to {most:.3} kg m² over a turn of the crank")),
@@ -117,14 +109,9 @@ pub fn machine() -> Result<Machine, PlantError> {
             marks: vec![(0.1, "run-up"), (SECONDS[0], "plate"), (SECONDS[1], "no plate")],
             law: Some(Law { node: CRANK, torque: blanking }),
         }],
-        encoder: Encoder::new(scene::COUNTS),
-        torque_noise,
         load: CRANK,
         shaft_torque: shaft,
         load_torque: load,
-        told_brake: None,
-        told_friction: 0.0,
-        rated_speed: PunchPress::RATING.speed.0,
-        bases: PunchPress::BASES,
+        ..facts::scene::<PunchPress>(scene::SCENE, scene::COUNTS)
     })
 }

@@ -8,7 +8,6 @@ use super::facts;
 use driveline_closed_loop::departure::Departure;
 use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::scenario::{Action, Machine, Scenario};
-use driveline_closed_loop::sensors::Encoder;
 use driveline_solver::plant::{Chain, PlantError, Shaft, Start};
 
 /// Gravity (m/s2), the standard value of ISO 80000-3.
@@ -70,17 +69,11 @@ fn closing(at: f64) -> impl Iterator<Item = (f64, Action)> {
 }
 
 /// The winch and its runs.
-///
-/// # Errors
-/// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
     departing(&Departure::NONE)
 }
 
 /// The winch as it is.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let (mass, weight) = (SKIP * by.load * TRAVEL * TRAVEL, WEIGHT * by.load);
     let [motor_shaft, elastic] = [MOTOR_SHAFT, ROPE].map(|stiffness| stiffness * by.stiffness);
@@ -105,12 +98,10 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
         (RELEASE, Action::Setpoint(SkipWinch::RATING.speed.0)),
         (8.0, Action::Setpoint(0.3 * SkipWinch::RATING.speed.0)),
     ];
-    let torque_noise = 0.01 * SkipWinch::RATING.torque.0;
     Ok(Machine {
-        name: scene::SCENE,
         summary: "A mine's skip hoist: hoisting, and emergencies: the brake alone while it lowers; drive and brake \
             while it hoists.",
-        facts: facts::of_design(&SkipWinch::OBSERVER, scene::COUNTS, torque_noise),
+        facts: facts::of_design::<SkipWinch>(scene::COUNTS),
         notes: vec![
             "The shaft torque is the rope's pull at the motor, behind the gear's loss.",
             "The brake's torque is reported to the drive exactly; excess brake torque would appear as shaft torque. \
@@ -122,37 +113,27 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
         chosen: ("semi-implicit", SkipWinch::RATE_HZ),
         scenarios: vec![
             Scenario {
-                name: "hoisting",
-                plant: hanging()?.into(),
                 held: weight,
                 actions: hoist,
                 duration: 12.0,
-                counted: true,
                 marks: vec![(RELEASE, "brake opens"), (8.0, "slower")],
-                law: None,
+                ..Scenario::of("hoisting", hanging()?)
             },
             Scenario {
-                name: "emergency brake while lowering",
-                plant: hanging()?.into(),
                 held: weight,
                 actions: emergency,
                 duration: EMERGENCY + STOP,
-                counted: true,
                 marks: vec![(RELEASE, "brake opens"), (EMERGENCY, "emergency")],
-                law: None,
+                ..Scenario::of("emergency brake while lowering", hanging()?)
             },
             emergency_stop("emergency stop while hoisting", hanging()?.into(), weight, STOPPED),
             emergency_stop("emergency brake while hoisting", hanging()?.into(), weight, 0.0),
         ],
-        encoder: Encoder::new(scene::COUNTS),
-        torque_noise,
         load: 2,
         shaft_torque: rope,
         load_torque: |plant| plant.load_torque(2),
         told_brake: Some(0),
-        told_friction: 0.0,
-        rated_speed: SkipWinch::RATING.speed.0,
-        bases: SkipWinch::BASES,
+        ..facts::scene::<SkipWinch>(scene::SCENE, scene::COUNTS)
     })
 }
 

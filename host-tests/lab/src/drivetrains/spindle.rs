@@ -9,7 +9,6 @@ use super::facts;
 use driveline_closed_loop::departure::Departure;
 use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::scenario::{Action, Machine, Scenario};
-use driveline_closed_loop::sensors::Encoder;
 use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft};
 
 /// Shear modulus of steel (Pa).
@@ -38,17 +37,11 @@ fn shaft(plant: &Body) -> f64 {
 }
 
 /// The spindle and its runs.
-///
-/// # Errors
-/// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
     departing(&Departure::NONE)
 }
 
 /// The spindle as it is.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let spindle_with = |program: LoadProgram| {
         let shaft = Shaft::elastic(stiffness() * by.stiffness).damping(0.3);
@@ -65,11 +58,9 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     });
     let milling: Vec<(f64, f64)> =
         [(0.8, 0.0), (0.82, CUT), (0.89, CUT)].into_iter().chain(teeth).chain([(1.92, 0.0)]).collect();
-    let torque_noise = 0.01 * Spindle::RATING.torque.0;
     Ok(Machine {
-        name: spindle::SCENE,
         summary: "A machine tool's spindle with a shaft of 800 Hz: run-up and cuts.",
-        facts: facts::of_design(&Spindle::OBSERVER, spindle::COUNTS, torque_noise),
+        facts: facts::of_design::<Spindle>(spindle::COUNTS),
         notes: vec![
             "The observer of one mass is chosen: over the tolerances its errors are smaller than those of two masses \
                 in every draw. With white noise of 1 % in the torque an oscillation of 800 Hz is hardly observable at \
@@ -80,14 +71,10 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
         chosen: ("rigid", Spindle::RATE_HZ),
         scenarios: vec![
             Scenario {
-                name: "run-up and a face cut",
-                plant: spindle_with(LoadProgram::table(&face))?.into(),
-                held: 0.0,
                 actions: run_up.clone(),
                 duration: 1.8,
-                counted: true,
                 marks: vec![(0.01, "run-up"), (0.8, "cut"), (1.5, "out")],
-                law: None,
+                ..Scenario::of("run-up and a face cut", spindle_with(LoadProgram::table(&face))?)
             },
             Scenario {
                 name: "milling with four teeth",
@@ -100,14 +87,9 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
                 law: None,
             },
         ],
-        encoder: Encoder::new(spindle::COUNTS),
-        torque_noise,
         load: 1,
         shaft_torque: shaft,
         load_torque: |plant| plant.load_torque(1),
-        told_brake: None,
-        told_friction: 0.0,
-        rated_speed: Spindle::RATING.speed.0,
-        bases: Spindle::BASES,
+        ..facts::scene::<Spindle>(spindle::SCENE, spindle::COUNTS)
     })
 }

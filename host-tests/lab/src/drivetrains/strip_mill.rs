@@ -7,7 +7,6 @@ use super::facts;
 use driveline_closed_loop::departure::Departure;
 use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::scenario::{Action, Machine, Scenario};
-use driveline_closed_loop::sensors::Encoder;
 use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft};
 
 /// Rolling torque (N m).
@@ -26,17 +25,11 @@ fn spindles(plant: &Body) -> f64 {
 }
 
 /// The stand and its runs.
-///
-/// # Errors
-/// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
     departing(&Departure::NONE)
 }
 
 /// The stand as it is.
-///
-/// # Errors
-/// A figure of the plant that is out of range.
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let stand = |program: LoadProgram| {
         Chain::motor(3000.0 * by.motor_inertia)
@@ -47,11 +40,9 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
             .program(program)
             .build()
     };
-    let torque_noise = 0.01 * StripMill::RATING.torque.0;
     Ok(Machine {
-        name: strip_mill::SCENE,
         summary: "A strip mill's stand of 2.4 MW: strips bite and leave.",
-        facts: facts::of_design(&StripMill::OBSERVER, strip_mill::COUNTS, torque_noise),
+        facts: facts::of_design::<StripMill>(strip_mill::COUNTS),
         notes: vec!["The shaft torque is the spindles', between pinion stand and rolls."],
         chosen: ("semi-implicit", StripMill::RATE_HZ),
         scenarios: vec![Scenario {
@@ -72,14 +63,9 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
             marks: vec![(0.1, "run-up"), (4.0, "bite"), (6.0, "out"), (7.0, "thinner strip")],
             law: None,
         }],
-        encoder: Encoder::new(strip_mill::COUNTS),
-        torque_noise,
         load: ROLLS,
         shaft_torque: spindles,
         load_torque: |plant| plant.load_torque(ROLLS),
-        told_brake: None,
-        told_friction: 0.0,
-        rated_speed: StripMill::RATING.speed.0,
-        bases: StripMill::BASES,
+        ..facts::scene::<StripMill>(strip_mill::SCENE, strip_mill::COUNTS)
     })
 }

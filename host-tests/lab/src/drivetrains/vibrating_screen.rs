@@ -9,14 +9,12 @@ use driveline_firmware::scenes::vibrating_screen::{self as scene, VibratingScree
 use super::facts;
 use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::scenario::{Action, Machine, Scenario};
-use driveline_closed_loop::sensors::Encoder;
 use driveline_solver::plant::train::{Coordinate, Link, Source, Train, Unbalance};
 use driveline_solver::plant::{LoadProgram, PlantError};
 
 /// The exciter among the coordinates; before it the motor, behind it box and frame.
 const EXCITER: usize = 1;
 
-/// The box.
 pub const BOX: usize = 2;
 
 /// The cardan shaft among the links.
@@ -57,15 +55,10 @@ pub fn train() -> Train {
 }
 
 /// The screen and its run.
-///
-/// # Errors
-/// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
-    let torque_noise = 0.01 * VibratingScreen::RATING.torque.0;
     Ok(Machine {
-        name: scene::SCENE,
         summary: "A dual-mass vibrating screen of 30 kW: up through its resonances, more charge, and down again.",
-        facts: facts::of_design(&VibratingScreen::OBSERVER, scene::COUNTS, torque_noise),
+        facts: facts::of_design::<VibratingScreen>(scene::COUNTS),
         notes: vec![
             "The shaft torque is the cardan shaft's. The load torque is the torque of gravity and box on the \
                 unbalances, plus friction.",
@@ -74,27 +67,18 @@ pub fn machine() -> Result<Machine, PlantError> {
         ],
         chosen: ("exact", VibratingScreen::RATE_HZ),
         scenarios: vec![Scenario {
-            name: "up through resonance, more charge, down",
-            plant: Body::train(train().build()?, &[]),
-            held: 0.0,
             actions: vec![
                 (0.1, Action::Release),
                 (0.1, Action::Setpoint(VibratingScreen::RATING.speed.0)),
                 (10.0, Action::Setpoint(0.05 * VibratingScreen::RATING.speed.0)),
             ],
             duration: 15.0,
-            counted: true,
             marks: vec![(0.1, "run-up"), (7.0, "more charge"), (10.0, "down")],
-            law: None,
+            ..Scenario::of("up through resonance, more charge, down", Body::train(train().build()?, &[]))
         }],
-        encoder: Encoder::new(scene::COUNTS),
-        torque_noise,
         load: EXCITER,
         shaft_torque: |plant| plant.shaft_torque(SHAFT),
         load_torque: |plant| plant.load_torque(EXCITER),
-        told_brake: None,
-        told_friction: 0.0,
-        rated_speed: VibratingScreen::RATING.speed.0,
-        bases: VibratingScreen::BASES,
+        ..facts::scene::<VibratingScreen>(scene::SCENE, scene::COUNTS)
     })
 }

@@ -15,7 +15,6 @@ use core::f64::consts::TAU;
 
 use driveline::machine::{CrankSlider, Cylinder, Inertia, Length, Mass};
 
-/// Cylinders.
 pub const CYLINDERS: usize = 6;
 /// A third of a turn.
 const THIRD: f64 = TAU / 3.0;

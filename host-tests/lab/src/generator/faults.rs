@@ -24,7 +24,6 @@ pub enum Wire {
     Setpoint,
 }
 
-/// Its fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Fault {
@@ -34,7 +33,6 @@ pub enum Fault {
     Frozen,
     /// With noise: a degree of the angle, half the rated torque, 5 % of rated speed (standard deviations).
     Noisy,
-    /// Its negative.
     Negated,
     /// Not a number; every bit of an angle, the most negative number of fixed point.
     NotANumber,
@@ -132,9 +130,6 @@ fn program(duration: f64) -> Program {
 }
 
 /// Runs the diesel with a fault that lasts so long.
-///
-/// # Errors
-/// What the link says.
 pub fn outcome(
     words: Words,
     drive: &mut impl Ticks,

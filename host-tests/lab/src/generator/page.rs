@@ -213,7 +213,6 @@ fn plot(one: &Verdict) -> Figure {
     Figure { title, text, plots, ..Figure::default() }
 }
 
-/// The page.
 pub fn page(verdicts: &Verdicts) -> String {
     let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
     let mut facts = Vec::new();

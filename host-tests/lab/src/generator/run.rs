@@ -26,7 +26,6 @@ pub struct Program {
     pub loads: Vec<(f64, f64)>,
     /// When the rack seizes.
     pub seizes: Option<f64>,
-    /// Its duration.
     pub duration: f64,
 }
 
@@ -69,9 +68,6 @@ const SENSOR: f64 = 0.002;
 const ELECTRICAL: usize = RATE_HZ as usize / 50;
 
 /// Runs a program. `spoil` has every input in its hands before the drive does.
-///
-/// # Errors
-/// What the link says.
 pub fn run(
     kind: Kind,
     words: Words,

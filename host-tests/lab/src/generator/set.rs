@@ -44,7 +44,6 @@ impl Kind {
         }
     }
 
-    /// Its constants.
     pub const fn constants(self) -> &'static Constants {
         const SETS: [&Constants; 2] = [&DIESEL, &TURBINE];
         SETS[self as usize]
@@ -66,9 +65,6 @@ pub struct Set {
 
 impl Set {
     /// A set that turns at `speed` (rad/s), without load.
-    ///
-    /// # Errors
-    /// A figure of the plant that is out of range, which only a changed set can bring.
     pub fn new(kind: Kind, speed: f64) -> Result<Self, PlantError> {
         let rated_torque = kind.constants().rated_torque;
         let (mover, chain, flywheel) = match kind {

@@ -16,7 +16,6 @@ use super::run::Moment;
 /// Limits of a class, as fractions of the rated frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Class {
-    /// Its name.
     pub name: &'static str,
     /// Droop: frequency without load less that at full load.
     pub droop: f64,

@@ -20,7 +20,6 @@ use driveline_closed_loop::units::Units;
 pub struct Cause {
     /// Action.
     pub what: &'static str,
-    /// The trip.
     pub trip: Trip,
     /// When it is done, and until when the trip has to have come, after it (s).
     at: f64,
@@ -103,9 +102,6 @@ pub struct Latched {
 }
 
 /// Brings a trip about on the diesel at half load.
-///
-/// # Errors
-/// What the link says.
 pub fn latched(words: Words, drive: &mut impl Ticks, cause: &Cause) -> Result<Latched, Broken> {
     let units = Units::new(words, Kind::Diesel.constants().bases());
     let (mut speed, mut loads, mut seizes) = (RATED_SPEED, vec![(0.5, 0.5)], None);

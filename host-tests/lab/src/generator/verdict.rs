@@ -178,9 +178,6 @@ pub fn steps(variants: &[Candidate], faults: bool) -> u64 {
 
 /// Runs every variant in both ways, and with `faults` the diesel's with every fault. `says` names what is under way,
 /// `step` counts.
-///
-/// # Errors
-/// What kept a variant from being built or run.
 pub fn run_all(
     variants: &[Candidate],
     faults: bool,

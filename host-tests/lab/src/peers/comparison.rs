@@ -31,7 +31,6 @@ pub struct Accuracy {
 /// An observer on a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Observer {
-    /// Its name.
     pub name: String,
     /// Whether it is the library's, with the gains of its design or with Luenberger's.
     pub library: bool,
@@ -43,7 +42,6 @@ pub struct Observer {
     pub costs: Vec<Cost>,
 }
 
-/// A scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SceneComparison {
     /// Its name.
@@ -52,14 +50,12 @@ pub struct SceneComparison {
     pub rate_hz: u32,
     /// Ticks of its runs.
     pub ticks: usize,
-    /// The observers.
     pub observers: Vec<Observer>,
 }
 
 /// All scenes.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Comparison {
-    /// The scenes.
     pub scenes: Vec<SceneComparison>,
     /// Speed loops on the strip mill.
     pub governors: Vec<Governor>,
@@ -86,9 +82,6 @@ pub fn scenes() -> impl Iterator<Item = &'static str> {
 
 impl SceneComparison {
     /// Runs a scene, each of its runs for so many seconds at most.
-    ///
-    /// # Errors
-    /// A run, the program or an image that failed.
     pub fn run(
         scene: &str,
         seconds: f64,
@@ -163,7 +156,6 @@ impl SceneComparison {
         Ok(SceneComparison { scene: scene.to_owned(), rate_hz: machine.chosen.1, ticks: own.ticks.len(), observers })
     }
 
-    /// The observers on a core with their costs.
     pub fn on<'c>(&'c self, core: &'c str) -> impl Iterator<Item = (&'c Observer, &'c Cost)> {
         self.observers.iter().filter_map(move |observer| {
             observer.costs.iter().find(|cost| cost.core == core).map(|cost| (observer, cost))

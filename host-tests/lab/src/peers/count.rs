@@ -13,13 +13,11 @@ use serde::Serialize;
 use super::recording::{Tick, words};
 use driveline_closed_loop::units::Units;
 
-/// The cores.
 pub const CORES: [&str; 2] = ["m4f", "m3"];
 
 /// Cost of an observer on a core.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Cost {
-    /// The core.
     pub core: &'static str,
     /// Instructions of a step with its estimates, the middle.
     pub median: u32,
@@ -38,9 +36,6 @@ pub struct Images(Vec<Image>);
 
 impl Images {
     /// Builds them for the M4F and the M3.
-    ///
-    /// # Errors
-    /// What the build says.
     pub fn build(says: &dyn Fn(&str)) -> Result<Self, Box<dyn Error>> {
         let boards = BOARDS.iter().filter(|board| ["m4f", "m3"].contains(&board.core));
         let images = boards.map(|&board| build("peers/all", board, Program::Peers, |line| says(line.trim())));
@@ -48,9 +43,6 @@ impl Images {
     }
 
     /// Cost of an observer on a core; none where there is no image of that core.
-    ///
-    /// # Errors
-    /// What the link says.
     pub fn cost(
         &self,
         core: &'static str,
@@ -65,9 +57,6 @@ impl Images {
     }
 
     /// The same over inputs, less what the frame costs.
-    ///
-    /// # Errors
-    /// As [`cost`](Self::cost).
     pub fn net_cost(
         &self,
         core: &'static str,

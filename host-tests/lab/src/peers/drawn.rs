@@ -23,9 +23,6 @@ impl Recording {
     /// One run each of machines drawn from the tolerances of a scene's campaign. Where it has none, motor, inverter and
     /// encoder are drawn as of any drive; skip winch, planetary set and converter have their shafts and loads, too. The
     /// noise is another one in each.
-    ///
-    /// # Errors
-    /// As [`of`](Self::of); values that no plant can have.
     pub fn drawn(scene: &str, build: Build, numbers: Range<u64>, seconds: f64) -> Result<Self, Box<dyn Error>> {
         let campaign = CAMPAIGNS.iter().find(|campaign| campaign.name == scene);
         let tolerances = match (campaign, scene) {

@@ -20,7 +20,6 @@ use driveline_closed_loop::units::Units;
 /// A speed loop.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Governor {
-    /// Its name.
     pub name: String,
     /// Deviation of the motor's speed from its setpoint from the first strip on, rms and largest, of rated.
     pub deviation: [f64; 2],
@@ -74,9 +73,6 @@ impl Drop for Piped {
 }
 
 /// All speed loops.
-///
-/// # Errors
-/// A run, the program or an image that failed.
 pub fn governors(replay: &Replay, images: &Images, says: &dyn Fn(&str)) -> Result<Vec<Governor>, Box<dyn Error>> {
     let machine = crate::drivetrains::strip_mill::machine()?;
     let scenario = machine.scenarios.first().ok_or("the strip mill has no run")?;

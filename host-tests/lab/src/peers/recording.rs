@@ -11,7 +11,6 @@ use driveline_closed_loop::scenario::Machine;
 use driveline_closed_loop::ticks::OnHost;
 use driveline_closed_loop::units::Units;
 
-/// A tick.
 #[derive(Clone, Copy, Debug)]
 pub struct Tick {
     /// Angle, 2^32 to the turn.
@@ -35,9 +34,6 @@ pub struct Recording {
 
 impl Recording {
     /// Runs a machine with its chosen drive in `f32` on the host, each run for so many seconds at most.
-    ///
-    /// # Errors
-    /// No such drive.
     pub fn of(machine: &Machine, seconds: f64, imperfections: &Imperfections) -> Result<Self, Box<dyn Error>> {
         let (observer, rate_hz) = machine.chosen;
         let name = format!("{}/f32/{observer}/{rate_hz}", machine.name);

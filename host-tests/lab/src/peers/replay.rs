@@ -29,9 +29,6 @@ pub struct Replay(PathBuf);
 
 impl Replay {
     /// Builds it.
-    ///
-    /// # Errors
-    /// What cargo says.
     pub fn build() -> Result<Self, Box<dyn Error>> {
         let target = target_directory()?.join("peers");
         let output = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
@@ -47,9 +44,6 @@ impl Replay {
     }
 
     /// What it has.
-    ///
-    /// # Errors
-    /// The program does not run.
     pub fn list(&self) -> Result<Listed, Box<dyn Error>> {
         let output = Command::new(&self.0).arg("list").output()?;
         let mut listed = Listed::default();
@@ -66,9 +60,6 @@ impl Replay {
     }
 
     /// A speed loop of a scene in lock-step, both by their numbers.
-    ///
-    /// # Errors
-    /// The program does not run.
     pub fn govern(&self, [scene, governor]: [usize; 2]) -> Result<Child, Box<dyn Error>> {
         let mut command = Command::new(&self.0);
         command.args(["govern".to_owned(), scene.to_string(), governor.to_string()]);
@@ -76,9 +67,6 @@ impl Replay {
     }
 
     /// The solvers of least squares: name, error of the weights, residual.
-    ///
-    /// # Errors
-    /// The program does not run.
     pub fn solvers(&self) -> Result<Vec<(String, [f64; 2])>, Box<dyn Error>> {
         let output = Command::new(&self.0).arg("solvers").output()?;
         let mut solvers = Vec::new();
@@ -93,9 +81,6 @@ impl Replay {
 
     /// Estimates of an observer of a scene over a recording, both by their numbers; empty where the machine has no such
     /// observer.
-    ///
-    /// # Errors
-    /// The program does not run.
     pub fn estimates(
         &self,
         [scene, peer]: [usize; 2],

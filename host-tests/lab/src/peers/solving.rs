@@ -12,7 +12,6 @@ use super::replay::Replay;
 /// A way to solve for the weights.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Solver {
-    /// Its name.
     pub name: String,
     /// Largest error of the weights, over the largest weight.
     pub error: f64,
@@ -28,9 +27,6 @@ const FIRST: usize = 200;
 const TIMES: usize = 5;
 
 /// All.
-///
-/// # Errors
-/// The program or an image that failed.
 pub fn solvers(replay: &Replay, images: &Images, says: &dyn Fn(&str)) -> Result<Vec<Solver>, Box<dyn Error>> {
     let mut inputs = vec![Input::default()];
     inputs.extend([Input { flags: Input::RELEASED, ..Input::default() }; TIMES]);

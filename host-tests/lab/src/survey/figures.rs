@@ -3,12 +3,11 @@
 use serde::Serialize;
 
 use super::{Aim, Factor};
-use crate::backlash::Comparison;
 use crate::balancing;
 use crate::cases::Case;
 use crate::commissioning::Verdict;
 use crate::generator::verdict::Verdicts;
-use driveline_report::{Sample, Sweep, Variant};
+use driveline_report::{Sample, Variant};
 
 /// A variant of a drivetrain.
 #[derive(Clone, Debug, Serialize)]
@@ -19,8 +18,6 @@ pub struct Run {
     pub chosen: bool,
     /// Shaft torque, run by run.
     pub factors: Vec<Factor>,
-    /// Bytes of code that a tick reaches.
-    pub tick_code: u64,
 }
 
 impl Run {
@@ -44,7 +41,6 @@ pub struct Gentle {
 /// A drivetrain in all its variants.
 #[derive(Clone, Debug, Serialize)]
 pub struct SceneFigures {
-    /// Its name.
     pub name: String,
     /// Its kind.
     pub summary: String,
@@ -58,16 +54,6 @@ impl SceneFigures {
     /// The variants of the design's choice.
     pub fn chosen(&self) -> impl Iterator<Item = &Run> {
         self.runs.iter().filter(|run| run.chosen)
-    }
-
-    /// The variants whose flash no other of the same number and core and rate is below.
-    pub fn smallest(&self) -> Vec<&Run> {
-        let like = |a: &Variant, b: &Variant| (&a.number, &a.core, a.rate_hz) == (&b.number, &b.core, b.rate_hz);
-        let least = |run: &&Run| {
-            let others = self.runs.iter().filter(|other| like(&other.variant, &run.variant));
-            others.map(|other| other.variant.flash_bytes).min() == Some(run.variant.flash_bytes)
-        };
-        self.runs.iter().filter(least).collect()
     }
 
     /// Peaks of the shaft torque over those of the plain speed loop with the same number, core and rate, of a variant
@@ -132,24 +118,19 @@ pub struct Survey {
     pub balanced: Vec<(String, Vec<balancing::Ran>)>,
     /// Published and made-up cases that are stiff or extreme.
     pub cases: Vec<Case>,
-    /// Ways through backlash over random reversals.
-    pub backlash: Option<Comparison>,
-    /// The steps over stiff and extreme machines.
-    pub sweeps: Vec<Sweep>,
     /// Failed jobs.
     pub failures: Vec<Failure>,
     /// How long it all took (s).
     pub seconds: f64,
     /// Day and commit.
     pub measured: String,
-    /// Whether it was only tried out: two seconds of each drivetrain, unproven, and a coarse sweep.
+    /// Whether it was only tried out: two seconds of each drivetrain, unproven.
     pub quick: bool,
     /// Whether only some scenes were requested.
     pub part: bool,
 }
 
 impl Survey {
-    /// The failures in a place.
     pub fn failures_in(&self, place: &str) -> impl Iterator<Item = &Failure> {
         self.failures.iter().filter(move |failure| failure.place == place)
     }

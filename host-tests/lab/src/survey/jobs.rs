@@ -8,7 +8,6 @@ use driveline_firmware::board::{BOARDS, Facts};
 
 use super::selection::{COMMISSIONING, GENERATOR};
 use super::{Aim, Factor, Run, SceneFigures, Survey, Wanted};
-use crate::backlash::Comparison;
 use crate::balancing;
 use crate::campaign::SCENES as CAMPAIGNS;
 use crate::campaign::sample;
@@ -20,17 +19,15 @@ use crate::drivetrains::engine;
 use crate::drivetrains::engine::Options;
 use crate::drivetrains::{Build, SCENES};
 use crate::generator::verdict::{self, Verdicts};
-use crate::sweep;
 use cargo_driveline::campaign::drive::Drive;
 use cargo_driveline::campaign::scenes::CampaignScene;
 use driveline_closed_loop::departure::Departure;
-use driveline_report::{Sample, Sweep, Variant};
+use driveline_report::{Sample, Variant};
 
 /// A job of one thread.
 pub struct Job {
     /// The scene or the part that it belongs to.
     pub place: String,
-    /// Its name.
     pub name: String,
     /// The core whose images it builds; empty for none.
     pub core: &'static str,
@@ -55,37 +52,26 @@ pub enum Piece {
     Commissioned(Box<Verdict>),
     /// A rotor of the scene of that name.
     Balanced(String, Box<balancing::Ran>),
-    /// Cases.
     Cases(Vec<Case>),
-    /// Ways through backlash.
-    Backlash(Comparison),
-    /// Stiff and extreme machines.
-    Sweeps(Vec<Sweep>),
 }
 
 /// The seed of balancing is the same in every run.
 const SEED: u64 = 1;
-/// Random numbers and seconds of each course through backlash, as the command `backlash` has them.
-const BACKLASH: (u64, f64) = (31, 6.0);
 
 /// Machines of a scene's sample.
 const SAMPLED: u64 = 20;
 
-/// The places of what belongs to no scene.
+/// The place of what belongs to no scene.
 pub const CASES: &str = "cases";
-/// Ways through backlash.
-pub const REVERSALS: &str = "random reversals";
-/// The sweeps.
-pub const SWEEP: &str = "sweep";
 
 /// The jobs for what is wanted, the longest of those that take one core for long first; and the survey that their
 /// pieces belong in, with the scenes in their order. A scene whose plant cannot be made is among its failures.
 ///
-/// With `quick` a scene runs for two seconds, unproven, and the sweep is coarse.
+/// With `quick` a scene runs for two seconds, unproven.
 pub fn jobs(wanted: &Wanted, quick: bool) -> (Vec<Job>, Survey) {
     let (mut jobs, mut survey) = (Vec::new(), Survey { quick, part: !wanted.everything(), ..Survey::default() });
     if wanted.everything() {
-        jobs.extend(of_no_scene(quick));
+        jobs.push(published());
     }
     if wanted.has(GENERATOR) {
         jobs.extend(verdict::variants(None).into_iter().map(generator));
@@ -188,8 +174,6 @@ impl Survey {
                 }
             }
             Piece::Cases(cases) => self.cases.extend(cases),
-            Piece::Backlash(comparison) => self.backlash = Some(comparison),
-            Piece::Sweeps(sweeps) => self.sweeps.extend(sweeps),
         }
     }
 }
@@ -198,31 +182,13 @@ fn sentence(error: Box<dyn Error>) -> String {
     error.to_string()
 }
 
-fn of_no_scene(quick: bool) -> Vec<Job> {
-    let sweeps = move |says: &dyn Fn(&str)| {
-        Ok(Piece::Sweeps(sweep::run(quick, |done, all| says(&format!("stiff and extreme machines, {done} of {all}")))))
-    };
-    let reversals = move |says: &dyn Fn(&str)| {
-        let (seed, seconds) = BACKLASH;
-        let compared = Comparison::run(if quick { 1.0 } else { seconds }, seed, |course| says(course));
-        compared.map(Piece::Backlash).map_err(|error| error.to_string())
-    };
-    let published = |says: &dyn Fn(&str)| {
+fn published() -> Job {
+    let work = |says: &dyn Fn(&str)| {
         says("published and extreme cases");
         cases::all().map(Piece::Cases)
     };
-    let job = |place: &str, name: &str, weight: u64, work: Work| Job {
-        place: place.into(),
-        name: name.into(),
-        core: "",
-        weight,
-        work,
-    };
-    vec![
-        job(SWEEP, "stiff and extreme machines", if quick { 100 } else { 2_000 }, Box::new(sweeps)),
-        job(REVERSALS, "ways through backlash", if quick { 100 } else { 600 }, Box::new(reversals)),
-        job(CASES, "published and extreme cases", 200, Box::new(published)),
-    ]
+    let name = "published and extreme cases".into();
+    Job { place: CASES.into(), name, core: "", weight: 200, work: Box::new(work) }
 }
 
 fn generator(candidate: Candidate) -> Job {
@@ -315,7 +281,7 @@ fn drivetrain(scene: &'static str, build: Build, candidate: Candidate, seconds: 
         let aim = Aim::of(&machine, &ran.traces);
         let runs = ran.traces.iter().zip(&machine.scenarios);
         let factors = runs.map(|(trace, scenario)| Factor::of(&machine, scenario, &trace.moments)).collect();
-        let run = Run { variant: ran.variant, chosen, factors, tick_code: ran.tick_code };
+        let run = Run { variant: ran.variant, chosen, factors };
         Ok(Piece::Run(scene.to_owned(), aim, Box::new(run)))
     };
     let ticks = seconds * f64::from(candidate.rate_hz());

@@ -65,7 +65,7 @@ mod tests {
             job("good", || Ok(Piece::Cases(Vec::new()))),
             job("refused", || Err("no such image".into())),
             job("panics", || panic!("out of range")),
-            job("good too", || Ok(Piece::Sweeps(Vec::new()))),
+            job("good too", || Ok(Piece::Cases(Vec::new()))),
         ];
         let weight = AtomicUsize::new(0);
         let done = |done: u64| {
@@ -73,7 +73,7 @@ mod tests {
         };
         let results = work(jobs, 2, &|_| {}, &done);
         assert_eq!(weight.into_inner(), 8);
-        assert!(matches!(results[0], Ok(Piece::Cases(_))) && matches!(results[3], Ok(Piece::Sweeps(_))));
+        assert!(matches!(results[0], Ok(Piece::Cases(_))) && matches!(results[3], Ok(Piece::Cases(_))));
         for (result, reason) in [(&results[1], "no such image"), (&results[2], "out of range")] {
             assert_eq!(result.as_ref().err().map(|failure| failure.reason.as_str()), Some(reason));
         }

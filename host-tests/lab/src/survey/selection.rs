@@ -17,9 +17,6 @@ pub struct Wanted {
 
 impl Wanted {
     /// These scenes; everything where none is named.
-    ///
-    /// # Errors
-    /// A sentence that names the scenes there are.
     pub fn scenes(names: &[String]) -> Result<Self, String> {
         let all = Self::names();
         match names.iter().find(|name| !all.contains(&name.as_str())) {

@@ -82,17 +82,11 @@ pub fn open_loop(machine: &TwoMass, period: f64) -> TwoMassDesign {
 
 /// The places of a sweep: omega T from 1e-6 to 1e3, inertia ratio from 1e-6 to 1e6, damping from none to 100 times the
 /// critical.
-pub fn places(quick: bool) -> Vec<Place> {
-    let decades = |from: i32, count: i32, per_decade: i32| {
-        (0..count).map(move |index| 10f64.powf(f64::from(from) + f64::from(index) / f64::from(per_decade)))
-    };
-    let omega_t: Vec<f64> = if quick { decades(-6, 10, 1).collect() } else { decades(-6, 19, 2).collect() };
-    let ratios: Vec<f64> = if quick { vec![1e-6, 1e-3, 1.0, 1e3, 1e6] } else { decades(-6, 13, 1).collect() };
-    let dampings: &[f64] = if quick { &[0.0, 1.0, 100.0] } else { &[0.0, 0.01, 1.0, 10.0, 100.0] };
+pub fn places() -> Vec<Place> {
     let mut places = Vec::new();
-    for &damping in dampings {
-        for &omega_t in &omega_t {
-            places.extend(ratios.iter().map(|&inertia_ratio| Place { omega_t, inertia_ratio, damping }));
+    for damping in [0.0, 1.0, 100.0] {
+        for omega_t in (-6..4).map(|decade| 10f64.powi(decade)) {
+            places.extend([1e-6, 1e-3, 1.0, 1e3, 1e6].map(|inertia_ratio| Place { omega_t, inertia_ratio, damping }));
         }
     }
     places

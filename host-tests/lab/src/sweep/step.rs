@@ -25,9 +25,6 @@ pub trait Step<N: Swept>: Observer<N> + Copy {
     const NAME: &'static str;
 
     /// The constants of a design.
-    ///
-    /// # Errors
-    /// What the number's format cannot hold.
     fn config(design: &TwoMassDesign, bases: Bases) -> Result<Self::Config, Error>;
 
     /// The constants with corrections that set a state when the angle has turned by `KICK`.
@@ -47,9 +44,6 @@ pub struct OpenLoop<N: Swept, S: Step<N>> {
 
 impl<N: Swept, S: Step<N>> OpenLoop<N, S> {
     /// A machine at rest, one state of which has then been set.
-    ///
-    /// # Errors
-    /// What the number's format cannot hold.
     pub fn new(design: &TwoMassDesign, bases: Bases, start: Start) -> Result<Self, Error> {
         let config = S::config(design, bases)?;
         let kicked = S::kicked(&config, design, bases, start);

@@ -6,7 +6,6 @@ use driveline::machine::TwoMass as Machine;
 use driveline::number::Fixed;
 use driveline::observer::{SemiImplicitObserver, TwoMassObserver};
 
-use super::cause::Cause;
 use super::grid::{PERIOD, Place, open_loop};
 use super::growth::{TOLERANCE, bases};
 use super::number::Swept;
@@ -31,19 +30,6 @@ pub struct Swing {
     pub bound: f64,
     /// Growth by the poles of the stored coefficients: the factor over the run, less one.
     pub predicted: f64,
-}
-
-impl Swing {
-    /// Why it grew, if it did.
-    pub fn cause(&self) -> Option<Cause> {
-        if self.change <= self.bound {
-            None
-        } else if self.change <= self.predicted + self.bound {
-            Some(Cause::Coefficients)
-        } else {
-            Some(Cause::Rounding)
-        }
-    }
 }
 
 /// Runs free swings side by side, which a processor is faster at than one after the other.
@@ -88,7 +74,7 @@ fn swings<N: Swept, S: Step<N>>(ticks: u64, omega_t: &[f64]) -> Vec<Swing> {
 }
 
 /// Free swings of so many ticks by every step of [`STEPS`](super::STEPS): the semi-implicit ones where it is stable.
-pub fn free_swings(ticks: u64, mut progress: impl FnMut()) -> [Vec<Swing>; 6] {
+pub fn free_swings(ticks: u64) -> [Vec<Swing>; 6] {
     type Run = fn(u64, &[f64]) -> Vec<Swing>;
     let stable = &DECISIVE[..3];
     let runs: [(Run, &[f64]); 6] = [
@@ -100,9 +86,5 @@ pub fn free_swings(ticks: u64, mut progress: impl FnMut()) -> [Vec<Swing>; 6] {
         (swings::<Fixed, SemiImplicitObserver<Fixed>>, &DECISIVE[..2]),
         (swings::<f64, SemiImplicitObserver<f64>>, stable),
     ];
-    runs.map(|(run, places)| {
-        let swings = run(ticks, places);
-        progress();
-        swings
-    })
+    runs.map(|(run, places)| run(ticks, places))
 }

@@ -51,7 +51,7 @@ fn commands() -> &'static [Command] {
 }
 
 /// Commands that would work for minutes on a right argument: they get none.
-const HEAVY: [&str; 3] = ["campaign", "commissioning", "backlash"];
+const HEAVY: [&str; 2] = ["campaign", "commissioning"];
 
 /// Values, wrong for most options.
 fn value(random: &mut Random) -> OsString {
@@ -96,9 +96,6 @@ pub fn case(random: &mut Random) -> Case {
             }
             _ => arguments.insert(at, name.into()),
         }
-    }
-    if command.words == ["backlash"] {
-        arguments.extend(["--seconds", random.one(&["0", "-1", "1001", "x", ""])].map(OsString::from));
     }
     let arguments = command.words.iter().map(OsString::from).chain(arguments).collect();
     let noise = (0..300).map(|_| random.next() as u8).collect();

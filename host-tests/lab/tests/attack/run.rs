@@ -50,7 +50,6 @@ impl Place {
         self.folder.path().join("work").join(name)
     }
 
-    /// A path outside of it.
     pub fn outside(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }

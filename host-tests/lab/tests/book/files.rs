@@ -73,7 +73,6 @@ impl Place {
         Some(Self { table, kinds: kinds.to_vec() })
     }
 
-    /// These tables in a file, of that kind.
     fn find<'t>(&self, file: &'t mut Table, kind: Option<&str>) -> Vec<&'t mut Table> {
         let mut tables: Vec<&mut Table> = vec![file];
         for part in &self.table {

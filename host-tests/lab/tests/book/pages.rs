@@ -31,7 +31,6 @@ pub struct Page {
 pub struct Section {
     /// Its text.
     pub title: String,
-    /// The code in it.
     pub code: Vec<String>,
     /// What a link to it ends in.
     pub anchor: String,

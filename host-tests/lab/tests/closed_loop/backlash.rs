@@ -1,7 +1,6 @@
 //! The observer of backlash: its step against the full solver, the gap's two sides, random reversals, and what it
 //! refuses.
 
-mod comparison;
 mod paths;
 mod reversals;
 mod scenes;

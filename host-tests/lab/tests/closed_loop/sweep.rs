@@ -2,4 +2,3 @@
 
 mod discretisation;
 mod errors;
-mod steps;

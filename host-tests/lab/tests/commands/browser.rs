@@ -27,7 +27,6 @@ pub struct Browser {
 }
 
 impl Browser {
-    /// Starts it.
     pub fn start() -> Self {
         let path = std::env::var_os("PATH").unwrap_or_default();
         let places: Vec<PathBuf> = std::env::split_paths(&path).collect();

@@ -31,7 +31,6 @@ fn every_command_explains_itself_with_examples() {
         "rotor",
         "balancing",
         "genset",
-        "backlash",
         "campaign",
         "simulate",
         "cosim",
@@ -427,9 +426,9 @@ fn a_figure_is_printed_before_its_page_fails() {
 
 #[test]
 fn a_number_below_zero_is_a_wrong_value_and_no_unknown_option() {
-    let output = driveline(&["backlash", "--seconds", "-1"]);
+    let output = driveline(&["campaign", "spindle", "--draws", "-1"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(err(&output).contains("invalid value '-1' for '--seconds <SECONDS>'"), "{}", err(&output));
+    assert!(err(&output).contains("invalid value '-1' for '--draws <DRAWS>'"), "{}", err(&output));
 }
 
 #[test]
@@ -447,8 +446,10 @@ fn what_cannot_be_printed_is_shown_by_a_mark() {
 
 #[test]
 fn a_signal_ends_long_work_at_once() {
+    let folder = tempfile::tempdir().unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_lab"));
-    let mut child = command.args(["backlash", "--seconds", "1000", "--json"]).stdout(Stdio::null()).spawn().unwrap();
+    command.args(["campaign", "spindle", "--draws", "100000", "--json"]).current_dir(&folder);
+    let mut child = command.stdout(Stdio::null()).spawn().unwrap();
     // until it has begun to catch signals: before, it ends by them as well
     std::thread::sleep(std::time::Duration::from_millis(300));
     let killed = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();

@@ -8,6 +8,4 @@ mod ring_down;
 #[path = "../../../report/tests/report/sample.rs"]
 mod sample;
 mod scope;
-#[path = "../../../report/tests/report/sound.rs"]
-mod sound;
 mod survey;

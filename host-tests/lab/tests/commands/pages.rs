@@ -4,13 +4,11 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use driveline_lab::survey::survey_page;
-
 use crate::browser::Browser;
-use crate::{sample, survey};
+use crate::sample;
 
 /// Pages that a command writes within seconds: name of the page and arguments.
-const QUICK: [(&str, &str); 12] = [
+const QUICK: [(&str, &str); 11] = [
     ("modes", "modes hoist.toml"),
     ("modes-train", "modes gear-pair.toml"),
     ("campbell", "modes ship.toml"),
@@ -22,15 +20,13 @@ const QUICK: [(&str, &str); 12] = [
     ("replay", "replay two-mass-bench.csv --machine bench.toml --rate 2500 --torque-constant 0.564 --from 5"),
     ("campaign", "campaign roll.toml --draws 12 --results roll.draws"),
     ("commissioning", "commissioning mill"),
-    ("backlash", "backlash --seconds 1"),
 ];
 
 /// Pages of commands that compile: firmware for QEMU, or a drive for a machine that is an FMU.
-const COMPILED: [(&str, &str); 5] = [
-    ("run", "run hoist --quick --all --sweep"),
+const COMPILED: [(&str, &str); 4] = [
+    ("run", "run hoist --quick --all"),
     ("run-balanced", "run balanced-fan --variants f32/m4f"),
     ("genset", "genset --no-faults --variants f32/m4f/diesel"),
-    ("report", "report --quick --scene hoist spindle"),
     ("cosim", "cosim machines/roll.toml PLANT --time 0.2"),
 ];
 
@@ -86,7 +82,6 @@ fn pages_read_well_in_a_browser() {
         driveline(folder.path(), &[&line.split(' ').collect::<Vec<_>>()[..], &["--html", &page]].concat());
     }
     fs::write(folder.path().join("run.html"), sample::report().page()).unwrap();
-    fs::write(folder.path().join("report.html"), survey_page(&survey::survey(0.031))).unwrap();
     read(folder.path());
 }
 

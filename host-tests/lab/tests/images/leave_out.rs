@@ -121,25 +121,6 @@ fn a_drive_of_an_observer_alone_is_that_observer() {
 }
 
 #[test]
-fn the_table_of_compositions_is_over_the_empty_image() {
-    let table = driveline_qemu::image::compositions(|_| {}).unwrap();
-    assert_eq!(table.len(), 16);
-    for row in &table {
-        // The state, and 32 bytes of a config's limits and more in the table.
-        assert!(row.ram() >= 20 && row.text_bytes > 200 && row.rodata_bytes >= 20, "{row:?}");
-        println!(
-            "{:26} {:5} {:4} {:5} {:4} {:3}",
-            row.name,
-            row.number,
-            row.core,
-            row.text_bytes,
-            row.rodata_bytes,
-            row.ram()
-        );
-    }
-}
-
-#[test]
 fn a_drive_of_an_observer_alone_has_the_bits_of_the_calls_by_hand() {
     for number in ["f32", "fixed"] {
         let run = |parts: &str| {

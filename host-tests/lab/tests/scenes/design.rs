@@ -1,6 +1,5 @@
 //! Designs against closed forms and high-precision arithmetic.
 
 mod closed_loop;
-mod defaults;
 mod draws;
 mod encoder;

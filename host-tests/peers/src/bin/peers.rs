@@ -48,7 +48,6 @@ unsafe impl GlobalAlloc for Heap {
 #[global_allocator]
 static HEAP: Heap = Heap { bytes: UnsafeCell::new([0; 512]), used: AtomicUsize::new(0) };
 
-/// One tick of the observer.
 #[inline(never)]
 fn tick<R: Replayed>(observer: &mut R, input: &Input, output: &mut Output) {
     observer.tick(input, output);

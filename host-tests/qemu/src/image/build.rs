@@ -26,7 +26,6 @@ pub enum BuildError {
     Io {
         /// The step.
         place: String,
-        /// The error.
         error: io::Error,
     },
     /// Cargo refused.
@@ -34,7 +33,6 @@ pub enum BuildError {
     Cargo {
         /// The command to type.
         command: String,
-        /// Its output.
         output: String,
     },
 }

@@ -12,7 +12,6 @@ use driveline_report::Table;
 /// Bytes of an image.
 #[derive(Clone, Debug, Serialize)]
 pub struct Footprint {
-    /// The board.
     pub board: &'static str,
     /// Its core, or its controller.
     pub core: &'static str,
@@ -61,7 +60,6 @@ impl Footprint {
         self.sections.iter().filter(|(section, _)| section == name).map(|(_, bytes)| bytes).sum()
     }
 
-    /// All as a table.
     pub fn table(all: &[Footprint]) -> Table {
         let headings = ["board", "core", "variant"].iter().chain(&Self::SECTIONS).chain(&["flash", "RAM", "tick"]);
         let mut table = Table::new(headings.copied());

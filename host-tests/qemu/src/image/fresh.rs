@@ -14,9 +14,6 @@ use std::process::Command;
 const SOURCES: [&str; 5] = ["Cargo.toml", "Cargo.lock", ".cargo/config.toml", "src", "firmware"];
 
 /// Fingerprint of the sources, with those in `folder`, of the compiler and of the command.
-///
-/// # Errors
-/// A source that cannot be read, or no compiler.
 pub fn fingerprint(root: &Path, folder: &str, command: &str) -> io::Result<String> {
     let mut hasher = DefaultHasher::new();
     command.hash(&mut hasher);

@@ -40,9 +40,6 @@ pub struct Referent {
 }
 
 /// Reads `driveline_tick` and every function that it calls directly or through others from an image.
-///
-/// # Errors
-/// A file that cannot be read or is no image.
 pub fn tick_code(path: &Path) -> Result<Vec<Function>, ReadError> {
     let bytes = fs::read(path).map_err(|error| ReadError::File { path: path.into(), error })?;
     let file =

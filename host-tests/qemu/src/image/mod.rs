@@ -2,7 +2,6 @@
 
 mod build;
 mod calls;
-mod compositions;
 mod footprint;
 mod fresh;
 mod machine_code;
@@ -14,7 +13,6 @@ use std::path::PathBuf;
 use driveline_firmware::board::{BOARDS, Facts};
 
 pub use build::{BuildError, build, links};
-pub use compositions::compositions;
 pub use footprint::{Footprint, footprints};
 pub use machine_code::{Function, Referent, tick_code};
 pub use sections::{Contents, ReadError, Sizes};
@@ -89,7 +87,6 @@ pub struct Image {
     pub path: PathBuf,
     /// The variant that it holds.
     pub variant: String,
-    /// The board that it is for.
     pub board: Facts,
     /// The binary.
     pub program: Program,

@@ -15,30 +15,12 @@ use super::symbols::Symbol;
 /// Why an image could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
-    /// The file.
     #[error("{path}: {error}", path = path.display())]
-    File {
-        /// Its path.
-        path: PathBuf,
-        /// The error.
-        error: io::Error,
-    },
-    /// Its format.
+    File { path: PathBuf, error: io::Error },
     #[error("{path} is not a 32-bit ELF image: {error}", path = path.display())]
-    Format {
-        /// Its path.
-        path: PathBuf,
-        /// The error.
-        error: object::Error,
-    },
-    /// Its code.
+    Format { path: PathBuf, error: object::Error },
     #[error("{path}: {error}", path = path.display())]
-    Code {
-        /// Its path.
-        path: PathBuf,
-        /// The error.
-        error: NotReadable,
-    },
+    Code { path: PathBuf, error: NotReadable },
 }
 
 /// Bytes of an image by what they are for.
@@ -91,9 +73,6 @@ impl Contents {
     }
 
     /// Bytes of the function at an address and of every function that it calls directly or through others.
-    ///
-    /// # Errors
-    /// As [`read`](Self::read).
     pub fn reached_from(path: &Path, address: u64) -> Result<u64, ReadError> {
         let bytes = fs::read(path).map_err(|error| ReadError::File { path: path.into(), error })?;
         let file =
@@ -106,7 +85,6 @@ impl Contents {
         Ok(calls::reached(&file, &symbols, &function.name).iter().map(|symbol| symbol.size).sum())
     }
 
-    /// The symbol of that name.
     pub fn symbol(&self, name: &str) -> Option<&Symbol> {
         self.symbols.iter().find(|symbol| symbol.name == name)
     }

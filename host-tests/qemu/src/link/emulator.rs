@@ -6,7 +6,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// The program.
 pub const PROGRAM: &str = "qemu-system-arm";
 
 /// The program for 32-bit RISC-V, which runs where it is installed: Debian's package is `qemu-system-misc`.

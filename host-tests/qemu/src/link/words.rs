@@ -15,7 +15,6 @@ pub fn of_input(input: &Input) -> [u8; LENGTH] {
     bytes
 }
 
-/// The output in the bytes.
 pub fn to_output(bytes: &[u8; LENGTH]) -> Output {
     let mut words = bytes.chunks_exact(4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]));
     let mut next = || words.next().unwrap_or(0);

@@ -46,18 +46,12 @@ impl MachineCode {
     }
 
     /// The bound of the function at an address, as the board counts: without an empty function.
-    ///
-    /// # Errors
-    /// A function without a bound.
     pub fn bound(&self, start: u32) -> Result<Bound, Refusal> {
         let Bound { instructions, stack } = Bounds::new(&self.code, &self.loops).of(start)?;
         Ok(Bound { instructions: instructions.saturating_sub(self.empty), stack })
     }
 
     /// The cycles of a call on a core with code in a flash, all of it.
-    ///
-    /// # Errors
-    /// A function without a bound.
     pub fn cycles(&self, start: u32, core: Core, flash: Flash) -> Result<Cycles, Refusal> {
         Bounds::cycles(&self.code, &self.loops, core, flash, start)
     }
@@ -72,9 +66,6 @@ impl MachineCode {
     }
 
     /// Its longest path, all of it.
-    ///
-    /// # Errors
-    /// A function without a bound.
     pub fn path(&self, start: u32) -> Result<Vec<Piece>, Refusal> {
         Bounds::new(&self.code, &self.loops).path(start)
     }

@@ -83,18 +83,11 @@ pub struct Budgets {
 /// Why budgets could not be read.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BudgetError {
-    /// The file.
     #[error("{path}: {error}")]
-    File {
-        /// Its path.
-        path: String,
-        /// The error.
-        error: String,
-    },
+    File { path: String, error: String },
     /// A line that is not TOML, or a key that is no figure.
     #[error("budgets, line {line}, {key}: {message}")]
     Line {
-        /// The line, from one.
         line: usize,
         /// The key there, or the line's text where it has none.
         key: String,

@@ -33,9 +33,6 @@ pub(super) fn bench(board: Facts) -> Result<Image, Box<dyn Error>> {
 }
 
 /// Calls each function of the bench so often, those for the tick alone: the long ones are called a few times only.
-///
-/// # Errors
-/// An image that cannot be built or does not run.
 pub fn worst_called(board: Facts, calls: u32) -> Result<Vec<Called>, Box<dyn Error>> {
     let image = bench(board)?;
     let code = MachineCode::read(&image.path, Loops::default())?;

@@ -26,9 +26,6 @@ use crate::link::Link;
 use super::cost::variant;
 
 /// The most instructions of a tick.
-///
-/// # Errors
-/// An image that does not run.
 pub fn worst_drawn(image: &Image, ticks: usize) -> Result<u32, Box<dyn Error>> {
     let mut inputs = Inputs::new(SEED, variant(image)?.words());
     worst(image, ticks, |_| (0..ROUND).map(|_| inputs.next_input()).collect())
@@ -53,9 +50,6 @@ fn worst(image: &Image, ticks: usize, mut next: impl FnMut(&[Output]) -> Vec<Inp
 }
 
 /// The most instructions of a tick over inputs that are sought, equal for equal images.
-///
-/// # Errors
-/// An image that does not run.
 pub fn worst_sought(image: &Image, ticks: usize) -> Result<u32, Box<dyn Error>> {
     let mut search = Search::new(variant(image)?.words(), constants(image)?);
     worst(image, ticks, |outputs| search.next(outputs))

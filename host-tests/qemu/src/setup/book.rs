@@ -21,9 +21,6 @@ pub fn answers(program: &OsString) -> bool {
 }
 
 /// Compiles it, without its server and its search, unoptimised: a book of this size takes a second.
-///
-/// # Errors
-/// How cargo ended.
 pub fn install(runner: &mut Runner) -> Result<(), String> {
     runner.run(&command())
 }

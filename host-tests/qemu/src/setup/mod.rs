@@ -80,7 +80,6 @@ impl Need {
         }
     }
 
-    /// Its name.
     pub fn name(&self) -> String {
         match self {
             Need::Target(target) => format!("the Rust target {target}"),
@@ -103,9 +102,6 @@ pub fn missing(needs: &[Need]) -> Vec<Need> {
 
 /// Installs what of some needs is missing, `progress` being given each command before it runs; the names of what was
 /// installed.
-///
-/// # Errors
-/// What could not be installed, why, and what to type.
 pub fn ensure(needs: &[Need], mut progress: impl FnMut(&str)) -> Result<Vec<String>, SetupError> {
     let mut runner = Runner(&mut progress);
     missing(needs).into_iter().map(|need| install(&need, &mut runner).map(|()| need.name())).collect()

@@ -21,7 +21,6 @@ pub enum Manager {
 /// How root's commands can be run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rights {
-    /// This is root.
     Root,
     /// Through `sudo` without a password.
     Sudo,

@@ -11,7 +11,6 @@ const HEIGHT: f64 = 380.0;
 /// Left, top, right, bottom of the plot.
 const FRAME: [f64; 4] = [62.0, 18.0, WIDTH - 20.0, HEIGHT - 48.0];
 
-/// Cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cost {
     /// Instructions of a tick, the median.

@@ -12,7 +12,6 @@ const HEIGHT: f64 = FRAME[3] + 46.0;
 pub struct Curve {
     /// Style class.
     pub class: String,
-    /// Values.
     pub values: Vec<f64>,
 }
 
@@ -27,7 +26,6 @@ pub struct Lines {
     pub across: String,
     /// Places on the common axis, increasing.
     pub places: Vec<f64>,
-    /// The curves.
     pub curves: Vec<Curve>,
     /// Places that are marked, with a word.
     pub marks: Vec<(f64, String)>,
@@ -94,7 +92,6 @@ impl Lines {
 /// A curve over time that a legend names.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// Name.
     pub name: String,
     /// Style class, `s0` and on.
     pub class: String,

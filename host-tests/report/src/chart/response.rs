@@ -9,7 +9,6 @@ const FRAME: [f64; 4] = [70.0, 18.0, WIDTH - 24.0, HEIGHT - 46.0];
 /// A curve: its name, its class in the style, and its amplitudes over the common frequencies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response {
-    /// Name.
     pub name: String,
     /// Style class: `truth` for the whole chain, `s0`, `s1` and so on for reductions.
     pub class: String,

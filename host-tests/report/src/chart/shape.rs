@@ -12,7 +12,6 @@ const HEIGHT: f64 = 130.0;
 /// A mass of the chain: its name, and its share of the total inertia for the size of its disc.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Station {
-    /// Name.
     pub name: String,
     /// Share of the total inertia.
     pub share: f64,

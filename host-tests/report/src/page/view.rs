@@ -12,7 +12,6 @@ use crate::report::Report;
 use crate::results::{Fact, Variant};
 use crate::sample::{SAMPLES, Sample, samples_table};
 use crate::svg::MARKERS;
-use crate::sweep::Sweep;
 use crate::trajectory::Trajectory;
 use variants::{Named, index_of, names};
 
@@ -29,11 +28,6 @@ pub struct View<'a> {
     rows: Vec<variants::Row>,
     sampled: Option<Sampled>,
     courses: Courses,
-    comparison: Option<String>,
-    compared: Vec<Vec<String>>,
-    #[serde(flatten)]
-    sweeps: Sweeps,
-    sizes: Vec<tables::Size>,
     budgets: Vec<tables::Verdict>,
 }
 
@@ -56,20 +50,6 @@ impl Costs {
             shapes: looks.shapes,
             markers: MARKERS,
         }
-    }
-}
-
-/// Sweeps, with what the classes of their maps are.
-#[derive(Serialize)]
-pub struct Sweeps {
-    sweeps: Vec<tables::SweepView>,
-    classes: Vec<String>,
-}
-
-impl Sweeps {
-    /// Of these.
-    pub fn of(sweeps: &[Sweep]) -> Self {
-        Sweeps { sweeps: sweeps.iter().map(tables::sweep).collect(), classes: tables::classes() }
     }
 }
 
@@ -113,7 +93,6 @@ impl Sampled {
 /// Prepares a report for the page.
 pub fn view(report: &Report) -> View<'_> {
     let looks = variants::Looks::of(&report.variants);
-    let compared = !report.comparisons.is_empty();
     View {
         scene: &report.scene,
         summary: &report.summary,
@@ -124,10 +103,6 @@ pub fn view(report: &Report) -> View<'_> {
         rows: variants::rows(&report.variants, &looks.each),
         sampled: (!report.samples.is_empty()).then(|| Sampled::of(&report.samples)),
         courses: courses(&report.trajectories),
-        comparison: compared.then(|| chart::step_errors(&report.comparisons)),
-        compared: tables::compared(&report.comparisons),
-        sweeps: Sweeps::of(&report.sweeps),
-        sizes: tables::sizes(&report.compositions),
         budgets: report.budgets.iter().map(tables::verdict).collect(),
     }
 }

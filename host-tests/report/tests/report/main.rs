@@ -15,7 +15,7 @@ fn a_whole_report_is_one_sound_page() {
     for variant in &report.variants {
         assert!(page.contains(&variant.observer));
     }
-    assert!(page.contains("diverged") && page.contains("exceeded") && page.contains("failed"));
+    assert!(page.contains("exceeded") && page.contains("failed"));
     if let Some(path) = std::env::var_os("DRIVELINE_SAMPLE_REPORT") {
         std::fs::write(path, &page).unwrap();
     }
@@ -36,7 +36,6 @@ fn names_are_escaped() {
     report.variants[0].observer.clone_from(&bad);
     report.trajectories[0].variant.clone_from(&bad);
     report.trajectories[0].marks[0].label.clone_from(&bad);
-    report.comparisons[0].step.clone_from(&bad);
     report.notes.push(bad);
     let page = report.page();
     assert_sound(&page);
@@ -54,10 +53,6 @@ fn what_diverged_has_a_word_and_no_number() {
     for trajectory in &mut report.trajectories {
         trajectory.load_speed.estimate.iter_mut().for_each(|value| *value = f64::NAN);
         trajectory.shaft_torque.truth[7] = f64::NEG_INFINITY;
-    }
-    for point in &mut report.sweeps[0].points {
-        point.error = f64::NAN;
-        point.damping = 0.0;
     }
     assert_sound(&report.page());
     assert!(report.json()["variants"][0]["shaft_torque"]["rms"].is_null());
@@ -107,23 +102,4 @@ fn json_has_exactly_the_promised_fields() {
     assert_eq!(names, promised);
     assert_eq!(variant["instructions"].as_object().unwrap().len(), 3);
     assert!(variant["shaft_torque"]["rms"].is_f64() && variant["shaft_torque"]["max"].is_f64());
-}
-
-#[test]
-fn a_report_survives_json() {
-    let mut report = sample::report();
-    report.trajectories[0].load_speed.estimate[3] = f64::NAN;
-    let text = serde_json::to_string(&report).unwrap();
-    let back: Report = serde_json::from_str(&text).unwrap();
-    assert_eq!(back.variants.len(), report.variants.len());
-    assert_eq!(back.facts, report.facts);
-    assert_eq!(back.compositions, report.compositions);
-    // Reading a decimal may be off by a unit in the last place.
-    let near = |a: f64, b: f64| (a - b).abs() <= 4.0 * f64::EPSILON * b.abs();
-    for (back, variant) in back.variants.iter().zip(&report.variants) {
-        assert!(near(back.shaft_torque.rms, variant.shaft_torque.rms));
-    }
-    let diverged = back.comparisons.iter().filter(|row| row.shaft_torque.rms.is_infinite());
-    assert_eq!(diverged.count(), 1);
-    assert!(!back.trajectories[0].load_speed.estimate[3].is_finite());
 }

@@ -1,11 +1,9 @@
-//! A made-up report with everything in it: good and bad variants, a step that diverges, failures in a sweep.
+//! A made-up report with everything in it: good and bad variants, courses, samples, budgets.
 
 use driveline_report::{
-    Budget, Comparison, Composition, Deviation, Fact, Instructions, Mark, Report, Sample, Sampled, Signal, Sweep,
-    SweepPoint, Trajectory, Variant,
+    Budget, Deviation, Fact, Instructions, Mark, Report, Sample, Sampled, Signal, Trajectory, Variant,
 };
 
-/// The report.
 pub fn report() -> Report {
     let fact = |name: &str, value: &str| Fact { name: name.into(), value: value.into() };
     Report {
@@ -27,9 +25,6 @@ pub fn report() -> Report {
         samples: vec![sampled()],
         variants: variants(),
         trajectories: trajectories(),
-        comparisons: comparisons(),
-        sweeps: vec![sweep("exact impulse form, f32", 1e-5), sweep("semi-implicit, f32", 1e-3)],
-        compositions: compositions(),
         budgets: vec![
             budget("exact step, m4f, f32", "instructions", 61.0, 70.0),
             budget("exact step, m3, fixed", "instructions", 97.0, 110.0),
@@ -130,73 +125,6 @@ fn trajectories() -> Vec<Trajectory> {
         }
     }
     all
-}
-
-fn comparisons() -> Vec<Comparison> {
-    let row = |step: &str, rate_hz, rms: f64| Comparison {
-        step: step.into(),
-        observer: "reduced".into(),
-        rate_hz,
-        shaft_torque: Deviation { rms, max: rms * 4.0 },
-        load_speed: Deviation { rms: rms * 0.12, max: rms * 0.4 },
-        load_torque: Deviation { rms: rms * 1.8, max: rms * 6.0 },
-    };
-    vec![
-        row("exact", 10_000, 0.0085),
-        row("Tustin", 10_000, 0.0091),
-        row("forward Euler", 10_000, 0.031),
-        row("exact", 1_000, 0.022),
-        row("Tustin", 1_000, 0.064),
-        row("forward Euler", 1_000, f64::INFINITY),
-    ]
-}
-
-fn sweep(name: &str, holds: f64) -> Sweep {
-    let decades = |from: i32, to: i32| (from..=to).map(|exponent| 10f64.powi(exponent));
-    let mut points = Vec::new();
-    for damping in [0.0_f64, 0.01, 0.1, 1.0, 10.0, 100.0] {
-        for omega_t in decades(-6, 3) {
-            for inertia_ratio in decades(-6, 6) {
-                let error: f64 =
-                    6e-8 * (1.0 + omega_t).powf(0.8) * (1.0 + damping).powf(0.3) * inertia_ratio.log10().abs().exp2();
-                let passed = error < holds * 1e-1 / (1.0 + omega_t * 1e-2);
-                points.push(SweepPoint {
-                    omega_t,
-                    inertia_ratio,
-                    damping,
-                    error: if passed { error } else { error * 1e4 },
-                    passed,
-                });
-            }
-        }
-    }
-    Sweep {
-        name: name.into(),
-        criterion: "State error against the f64 exact step after 10 000 ticks, relative to the largest state; no \
-            growth over 1e8 ticks."
-            .into(),
-        points,
-    }
-}
-
-fn compositions() -> Vec<Composition> {
-    let composition = |name: &str, number: &str, core: &str, text_bytes, rodata_bytes, bss_bytes| Composition {
-        name: name.into(),
-        number: number.into(),
-        core: core.into(),
-        text_bytes,
-        rodata_bytes,
-        data_bytes: 0,
-        bss_bytes,
-    };
-    vec![
-        composition("rigid", "f32", "m4f", 312, 44, 28),
-        composition("two-mass", "f32", "m4f", 604, 76, 36),
-        composition("full", "f32", "m4f", 1_180, 132, 72),
-        composition("rigid", "fixed", "m3", 398, 60, 32),
-        composition("two-mass", "fixed", "m3", 788, 100, 44),
-        composition("full", "fixed", "m3", 1_364, 168, 84),
-    ]
 }
 
 fn sampled() -> Sample {

@@ -169,7 +169,6 @@ pub enum Start {
         /// Of every node, rad/s.
         speed: f64,
     },
-    /// As given.
     Given {
         /// Of every shaft, rad.
         twists: Vec<f64>,

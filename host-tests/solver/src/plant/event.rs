@@ -41,7 +41,6 @@ pub enum EventKind {
     Unresolved,
 }
 
-/// One event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
     /// When, s since the start of the plant.

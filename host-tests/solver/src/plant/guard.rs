@@ -78,7 +78,6 @@ impl Guard {
     }
 }
 
-/// The guards of a mode.
 pub(super) fn guards(chain: &Chain, mode: &Mode, regime: &Regime, coulomb: &[f64]) -> Vec<Guard> {
     let layout = Layout { nodes: chain.nodes.len() };
     let (m, n) = (layout.states(), layout.nodes);

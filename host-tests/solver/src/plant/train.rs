@@ -88,7 +88,7 @@ pub use rigid_gear::RigidGear;
 pub use rubbing::rubbing;
 pub use signal::Signal;
 pub use source::{Source, Waveform};
-pub use spur_pair::{Scales, SpurBearing, SpurPair, SpurWheel};
+pub use spur_pair::{SpurBearing, SpurPair, SpurWheel};
 pub use steady::Cycle;
 pub use stiffest::Stiffest;
 pub use unbalance::Unbalance;

@@ -71,7 +71,6 @@ impl<T: ComplexField<RealField = f64> + Copy> Band<T> {
         sum
     }
 
-    /// The factors.
     pub fn factors(self) -> Factors<T> {
         self.eliminated(true)
     }

@@ -18,13 +18,11 @@ pub struct Section {
     pub outer: f64,
     /// Bore (m), 0 where it is solid.
     pub bore: f64,
-    /// Material.
     pub material: Material,
 }
 
 /// The matrices of an element.
 pub(super) struct Beam {
-    /// Stiffness.
     pub stiffness: Matrix4<f64>,
     /// Mass: that of its deflection and that of the turning of its sections.
     pub mass: Matrix4<f64>,

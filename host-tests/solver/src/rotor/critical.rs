@@ -27,7 +27,6 @@ pub struct Natural {
     pub undamped: f64,
     /// Damping ratio; negative where the whirl grows.
     pub damping_ratio: f64,
-    /// Sense.
     pub sense: WhirlSense,
 }
 

@@ -20,7 +20,6 @@ pub enum RotorError {
     Node {
         /// Value found.
         place: String,
-        /// The node.
         node: usize,
         /// The last node there is.
         last: usize,
@@ -35,7 +34,6 @@ pub enum RotorError {
         /// How many would do.
         expected: usize,
     },
-    /// Some motion of the rotor meets no stiffness.
     #[error(
         "the bearings do not hold the rotor: some motion of it meets no stiffness, or so little beside that of \
         the shaft that rounding hides it"

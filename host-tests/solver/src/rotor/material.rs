@@ -12,7 +12,6 @@ pub struct Material {
 }
 
 impl Material {
-    /// Steel.
     pub const STEEL: Self = Material { density: 7850.0, young: 2.1e11, poisson: 0.3 };
 
     /// Shear modulus (Pa).

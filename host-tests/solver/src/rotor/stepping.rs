@@ -94,7 +94,6 @@ impl Steps {
     }
 }
 
-/// The step at a speed.
 fn step(modal: &Modal, speed: f64, h: f64) -> Step {
     let (a, b) = (modal.system(speed), modal.input());
     let (n, m) = (a.nrows(), b.ncols());

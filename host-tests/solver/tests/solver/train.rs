@@ -16,5 +16,4 @@ mod proof;
 mod rigid_gear;
 mod spur_pair;
 mod start;
-mod transfer;
 mod unbalance;

@@ -41,9 +41,6 @@ struct Answer {
 }
 
 /// Fits the weights into the holes, and judges them.
-///
-/// # Errors
-/// Holes that cannot take a weight; what cannot be judged.
 pub fn outcome(file: &BalanceFile, baseline: f64, found: &FromAmplitudes<f64>) -> Result<Outcome, Fault> {
     let weights: Vec<Complex<f64>> = [Some(found.weight), found.or].into_iter().flatten().collect();
     let mut answers = Vec::new();

@@ -60,9 +60,6 @@ pub struct Bearing {
 }
 
 /// Unbalance now is what the weights would take away; what is left is what they are off by, each plane by its own size.
-///
-/// # Errors
-/// What cannot be judged.
 pub fn grade(file: &BalanceFile, wanted: &[Complex<f64>], placed: &[Complex<f64>]) -> Result<Option<Grade>, Error> {
     let Some(rotor) = &file.rotor else { return Ok(None) };
     let Some(unbalance) = file.weight_unit.unbalance(rotor.radius) else { return Ok(None) };

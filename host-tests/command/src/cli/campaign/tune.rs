@@ -35,9 +35,6 @@ const FIGURES: [(&str, Figure); 5] = [
 ];
 
 /// The figure of a word.
-///
-/// # Errors
-/// The words that there are.
 pub fn figure(word: &str) -> Result<Figure, String> {
     let words = || FIGURES.map(|(word, _)| word).join(", ");
     let found = FIGURES.into_iter().find(|(known, _)| *known == word).map(|(_, figure)| figure);

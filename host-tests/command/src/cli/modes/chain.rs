@@ -131,9 +131,6 @@ pub struct Leaving {
 
 impl Vibration {
     /// Of a machine.
-    ///
-    /// # Errors
-    /// Damped vibrations that the iteration does not find.
     pub fn of(machine: &MachineFile) -> Result<Self, Failure> {
         let (masses, mut shafts) = machine.names();
         let joints = machine.joints();

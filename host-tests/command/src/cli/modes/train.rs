@@ -46,9 +46,6 @@ pub struct TrainResonance {
 
 impl TrainVibration {
     /// Of a train with every link in contact at its mean stiffness.
-    ///
-    /// # Errors
-    /// What the solver refuses.
     pub fn of(file: &TrainFile) -> Result<Self, Failure> {
         let modes = file.train.modes().map_err(|error| Failure::failed(error.to_string()))?;
         let decays = file.train.decays().map_err(|error| Failure::failed(error.to_string()))?;

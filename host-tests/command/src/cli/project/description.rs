@@ -420,9 +420,6 @@ const WORDS_OF_C: &str = "
 ";
 
 /// The name of a crate as a prefix in C and a namespace in C++, of which it must be no word.
-///
-/// # Errors
-/// A keyword, with what to do.
 pub fn name_of_c(krate: &str) -> Result<(), Failure> {
     if WORDS_OF_C.split_whitespace().any(|word| word == krate) {
         return Err(Failure::usage(format!(

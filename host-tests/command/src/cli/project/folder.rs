@@ -31,9 +31,6 @@ pub fn write(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<(), Failure> 
 }
 
 /// Whether a folder can be written: before long work.
-///
-/// # Errors
-/// As [`write`].
 pub fn is_free(folder: &Path) -> Result<(), Failure> {
     let shown = folder.display();
     match fs::read_dir(folder).map(|entries| entries.count()) {

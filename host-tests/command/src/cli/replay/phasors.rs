@@ -42,9 +42,6 @@ pub struct PhasorOptions {
 
 impl PhasorOptions {
     /// Measures the phasors.
-    ///
-    /// # Errors
-    /// A fault of the recording, settings that the library refuses.
     pub fn shown(&self, file: &Path, asked: Asked, falling: bool) -> Result<Shown, Failure> {
         let recording = read_recording(file, &asked)?;
         let Some(vibration) = recording.signal(Quantity::Vibration) else {

@@ -64,9 +64,6 @@ fn is_straight(shape: &[f64], rotor: &RotorFile) -> bool {
 
 impl Balanced {
     /// The weights, and the unbalance of every node with them (kg m).
-    ///
-    /// # Errors
-    /// Planes that cannot balance these modes.
     pub fn of(rotor: &RotorFile, plan: &Balancing) -> Result<(Self, Vec<Complex<f64>>), String> {
         let said = |error: Error| error.to_string();
         if plan.planes.len() > plan.modes.len()

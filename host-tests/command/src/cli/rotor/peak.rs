@@ -29,9 +29,6 @@ const ENCLOSED: f64 = 1e-6;
 
 /// Speed (rad/s) and vibration of a sensor where it is largest: every maximum of rising speeds that comes near to the
 /// largest is enclosed by the golden section.
-///
-/// # Errors
-/// As the response `at` a speed.
 pub fn highest(
     all: &[(f64, Vec<Complex<f64>>)],
     sensor: usize,

@@ -19,11 +19,9 @@ pub type Field = Procedure<f64, ROWS, PLANES, TRIALS>;
 /// A balancing as its file describes it.
 #[derive(Clone, Debug)]
 pub struct BalanceFile {
-    /// Name.
     pub name: String,
     /// Unit of the readings.
     pub unit: String,
-    /// Unit of the weights.
     pub weight_unit: WeightUnit,
     /// How angles are counted.
     pub angles: AngleConvention,
@@ -31,7 +29,6 @@ pub struct BalanceFile {
     pub planes: Vec<String>,
     /// Names of the readings.
     pub sensors: Vec<String>,
-    /// Measurement.
     pub measured: Measured,
     /// Holes of the planes that have some.
     pub holes: Vec<PlaneHoles>,
@@ -41,7 +38,6 @@ pub struct BalanceFile {
     pub rotor: Option<Rotor>,
 }
 
-/// Measurement.
 #[derive(Clone, Debug)]
 pub enum Measured {
     /// Amplitudes and phases.

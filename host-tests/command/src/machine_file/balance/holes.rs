@@ -6,10 +6,8 @@ use super::units::AngleConvention;
 use super::value::{ABOVE_ZERO, plane};
 use crate::machine_file::{Diagnostic, Quantity, Table};
 
-/// The holes of a plane.
 #[derive(Clone, Debug)]
 pub struct PlaneHoles {
-    /// The plane.
     pub plane: usize,
     /// Angles (degrees).
     pub degrees: Vec<f64>,

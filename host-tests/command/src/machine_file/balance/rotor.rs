@@ -6,7 +6,6 @@ use super::units::WeightUnit;
 use super::value::list;
 use crate::machine_file::{Diagnostic, Quantity, Table};
 
-/// The rotor.
 #[derive(Clone, Debug)]
 pub struct Rotor {
     /// Mass (kg).

@@ -5,7 +5,6 @@ use driveline::balancing::{Complex, Entry, Error};
 use super::value::choice;
 use crate::machine_file::{Diagnostic, Table};
 
-/// Unit of the weights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WeightUnit {
     /// g.

@@ -4,14 +4,14 @@ use std::fmt::Write;
 
 use driveline_report::Fact;
 
-use super::section::{Cell, Section, Shown};
+use super::section::Section;
 
 /// A page of the book.
 pub(super) fn page(summary: &str, facts: &[Fact], sections: &[Section]) -> String {
     let mut text = format!("# Results\n\n{summary}\n\n");
     text.push_str(
-        "`cargo lab report --markdown doc/makers/results.md` has written this page. The page `report/report.html` of \
-         the same run has the plots. [Limits](limits.md) has the limits of the figures.\n\n",
+        "`cargo lab report --markdown doc/makers/results.md` has written this page. \
+         [Limits](../limits.md) has the limits of the figures.\n\n",
     );
     let headings = ["fact".to_owned(), "value".to_owned()];
     rows(&mut text, &headings, facts.iter().map(|fact| vec![fact.name.clone(), fact.value.clone()]));
@@ -30,11 +30,10 @@ impl Section {
         for failure in &self.failures {
             paragraph(text, "**Failed:** ", failure);
         }
-        for Shown { title, text: said, headings, rows: all } in &self.tables {
+        for (title, said, table) in &self.tables {
             paragraph(text, "### ", title);
             paragraph(text, "", said);
-            let cells = |row: &[Cell]| row.iter().map(|cell| cell.text.clone()).collect::<Vec<_>>();
-            rows(text, &cells(headings), all.iter().map(|row| cells(row)));
+            rows(text, table.headings(), table.filled().into_iter());
         }
     }
 }

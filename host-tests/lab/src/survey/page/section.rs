@@ -1,32 +1,16 @@
 //! A section of the page.
 
-use serde::Serialize;
-
 use crate::survey::Survey;
 use driveline_report::Table;
 
 /// A section of the page.
-#[derive(Clone, Debug, Default, Serialize)]
-pub struct Section {
+#[derive(Clone, Debug, Default)]
+pub(super) struct Section {
     pub(super) title: String,
     pub(super) text: String,
     pub(super) failures: Vec<String>,
-    pub(super) tables: Vec<Shown>,
-}
-
-/// A table as the page shows it.
-#[derive(Clone, Debug, Serialize)]
-pub(super) struct Shown {
-    pub(super) title: String,
-    pub(super) text: String,
-    pub(super) headings: Vec<Cell>,
-    pub(super) rows: Vec<Vec<Cell>>,
-}
-
-#[derive(Clone, Debug, Serialize)]
-pub(super) struct Cell {
-    pub(super) text: String,
-    class: String,
+    /// Each with its title and text.
+    pub(super) tables: Vec<(String, String, Table)>,
 }
 
 impl Section {
@@ -36,25 +20,7 @@ impl Section {
 
     /// The same with a table.
     pub(super) fn table(mut self, title: &str, text: &str, table: &Table) -> Self {
-        let shown = |column: usize, text: &str| {
-            // a sentence is broken over lines, a number never
-            let kind = match table.numeric(column) {
-                true => "n",
-                false if text.chars().count() > 24 => "long",
-                false => "",
-            };
-            Cell { text: text.to_owned(), class: format!("{kind} {}", verdict(text)).trim().to_owned() }
-        };
-        let rows = table.filled();
-        self.tables.push(Shown {
-            title: title.to_owned(),
-            text: text.to_owned(),
-            headings: table.headings().iter().enumerate().map(|(column, text)| shown(column, text)).collect(),
-            rows: rows
-                .iter()
-                .map(|row| row.iter().enumerate().map(|(column, text)| shown(column, text)).collect())
-                .collect(),
-        });
+        self.tables.push((title.to_owned(), text.to_owned(), table.clone()));
         self
     }
 
@@ -67,15 +33,6 @@ impl Section {
 
     pub(super) fn is_empty(&self) -> bool {
         self.tables.is_empty() && self.failures.is_empty()
-    }
-}
-
-/// How a cell's text is coloured: words that are verdicts.
-fn verdict(text: &str) -> &'static str {
-    match text.split([' ', ':']).next().unwrap_or_default() {
-        "kept" | "equal" => "met",
-        "missed" | "differ" | "diverged" | "NO" | "YES" | "failed" => "failed",
-        _ => "",
     }
 }
 

@@ -24,17 +24,17 @@ fn mean(scores: &[(String, Score)]) -> f64 {
 /// twists its shaft by the gap may be worse, and no course is where the observer that ignores the gap is, above 15 %.
 #[test]
 fn the_shaft_torque_is_right_through_the_gap() {
-    for (name, scores) in [
-        ("f64", scores(Library::<f64>::double)),
-        ("f32", scores(Library::<f32>::single)),
-        ("fixed", scores(Library::<Fixed>::fixed)),
-    ] {
-        for (course, score) in &scores {
+    let all = [scores(Library::<f64>::double), scores(Library::<f32>::single), scores(Library::<Fixed>::fixed)];
+    let double = mean(&all[0]);
+    for (name, scores) in ["f64", "f32", "fixed"].into_iter().zip(&all) {
+        for (course, score) in scores {
             println!("{name} {course}: {:.2} % and {:.2} %", 100.0 * score.shaft_torque, 100.0 * score.load_speed);
             assert!(score.shaft_torque < 0.15, "{name} {course}: {score:?}");
         }
-        println!("{name}: {:.2} %", 100.0 * mean(&scores));
-        assert!(mean(&scores) < 0.04, "{name}: {:.2} %", 100.0 * mean(&scores));
+        println!("{name}: {:.2} %", 100.0 * mean(scores));
+        assert!(mean(scores) < 0.04, "{name}: {:.2} %", 100.0 * mean(scores));
+        // One algorithm: the numbers differ by their rounding, which is small beside what an encoder count does.
+        assert!((mean(scores) - double).abs() < 0.02 * double, "{name}");
     }
 }
 

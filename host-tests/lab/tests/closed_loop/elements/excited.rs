@@ -1,6 +1,7 @@
 //! The scenes whose machines excite themselves, by unbalance and by teeth: what their full plants do, and that their
 //! runs are proven.
 
+use super::scenes::selection;
 use driveline::configure::{HasBarredSpeeds as _, Machine as _};
 use driveline::design::{ObserverChoice, USUAL_MARGIN};
 use driveline::drive::ConfigOf;
@@ -100,10 +101,16 @@ fn the_teeth_excite_the_gear_drive() {
     assert!(factors[1] > 1.1 && factors[0] > factors[1], "{factors:?}");
 }
 
-/// Two masses for the one, and for the other, by what leaving out the shaft would cost.
+/// Two masses for the one, whose box pushes at speed with `S^2 w^2/2M` either way, twice a turn, and for the other, with
+/// a load step within 20 ms, by what leaving out the shaft would cost.
 #[test]
 fn both_need_two_masses() {
-    for need in [vibrating_screen::selection(), gear_drive::selection()] {
+    let (torque, speed) = (VibratingScreen::RATING.torque.0, VibratingScreen::RATING.speed.0);
+    let push = (vibrating_screen::UNBALANCE * speed).powi(2) / vibrating_screen::MASSES[0];
+    let quarter = 0.5 * core::f64::consts::PI / speed;
+    let screen = selection::<VibratingScreen>([2.0 * torque, push], [quarter; 2], true);
+    let gears = selection::<GearDrive>([1.5, 0.5].map(|share| share * GearDrive::RATING.torque.0), [0.02, 0.5], false);
+    for need in [screen, gears] {
         assert_eq!(need.chosen, ObserverChoice::Exact);
         assert!(need.without_shaft.shaft_torque > 0.02, "{need:?}");
     }

@@ -1,7 +1,7 @@
-//! Every case of `discretisation.json` through the coefficients that a tick loads, in every number, and through the
-//! design's exponential.
+//! Every case of `discretisation.json` through the coefficients that a tick loads, in every number. The
+//! design's exponential meets the same file in the library's tests.
 
-use driveline::design::{Matrix, discretise};
+use driveline::design::Matrix;
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass as Machine};
 use driveline::number::Fixed;
 use driveline::observer::TwoMassObserver;
@@ -90,37 +90,4 @@ fn stored_coefficients_meet_the_file() {
         met += 1;
     }
     assert_eq!(met, 2);
-}
-
-/// With friction, the whole matrices in both of the file's forms, in its energy norm.
-#[test]
-fn the_exponential_meets_the_file() {
-    for case in cases() {
-        for form in ["elastic", "total"] {
-            // `total` is a sentence where it is identical.
-            if !case[form].is_object() {
-                continue;
-            }
-            let (a, b) = (matrix::<3, 3>(&case[form]["A"]), matrix::<3, 2>(&case[form]["B"]));
-            let (f, g) = discretise::<3, 2, 5>(&a, &b, number(&case, "Ts_s")).unwrap();
-            let (ad, bd) = (matrix::<3, 3>(&case[form]["Ad"]), matrix::<3, 2>(&case[form]["Bd"]));
-            let machine = machine(&case);
-            let s = [machine.motor_inertia.sqrt(), 1.0 / machine.stiffness.sqrt(), machine.load_inertia.sqrt()];
-            let norm = |m: &Matrix<3, 3>| {
-                let mut sum = 0.0;
-                for i in 0..3 {
-                    for j in 0..3 {
-                        sum += (s[i] * m.0[i][j] / s[j]).powi(2);
-                    }
-                }
-                sum.sqrt()
-            };
-            let column = |m: &Matrix<3, 2>, j: usize| (0..3).map(|i| (s[i] * m.0[i][j]).powi(2)).sum::<f64>().sqrt();
-            let limit = 1e-14 * number(&case, "omega_Ts_rad").max(1.0);
-            assert!(norm(&f.plus(-1.0, &ad)) / norm(&ad) < limit, "{} {form}", case["id"]);
-            for j in 0..2 {
-                assert!(column(&g.plus(-1.0, &bd), j) / column(&bd, j) < limit, "{} {form}", case["id"]);
-            }
-        }
-    }
 }

@@ -1,15 +1,9 @@
 //! The drive called from Rust, in the place of the C interface: what that is measured against.
 
-use driveline::drive::Drive;
-use driveline::governor::SpeedLoop;
 use driveline::number::Number as _;
-use driveline::observer::{GearedObserver, SemiImplicitObserver};
 use driveline::sample::Sample;
 
-use crate::{CONFIG, Number};
-
-/// The drive of a firmware in Rust, whose compiler sees to it that it is initialised.
-type TheDrive = Drive<Number, GearedObserver<SemiImplicitObserver>, SpeedLoop>;
+use crate::{CONFIG, Number, TheDrive};
 
 #[repr(C)]
 pub struct CSample {

@@ -12,7 +12,6 @@ pub enum SystemError {
     /// An element on a node that is not there.
     #[error("{element} stands on node {node}: expected a node below {nodes}")]
     NoSuchNode {
-        /// Which element.
         element: &'static str,
         /// The requested node.
         node: usize,
@@ -21,16 +20,7 @@ pub enum SystemError {
     },
     /// A node that two gears drive, or gears in a ring.
     #[error("the gears tie node {node} more than once: expected gears to form trees")]
-    GearLoop {
-        /// The node.
-        node: usize,
-    },
-    /// Gears or shafts that do not form one chain from the drive on.
-    #[error("the system branches, closes or breaks off at node {node}: expected one chain")]
-    NotAChain {
-        /// The node.
-        node: usize,
-    },
+    GearLoop { node: usize },
 }
 
 /// An elastic link: between two nodes, or from one to the ground.

@@ -69,7 +69,6 @@ pub struct GearPair {
 }
 
 impl GearPair {
-    /// Coordinates.
     pub const COORDINATES: usize = 14;
     /// Link of the shaft from the motor.
     pub const INPUT: usize = 0;

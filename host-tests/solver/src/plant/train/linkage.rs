@@ -124,7 +124,6 @@ pub struct FourBar {
     pub crank: f64,
     /// Coupler from the crank pin to the rocker.
     pub coupler: f64,
-    /// Rocker.
     pub rocker: f64,
     /// From the pivot of the crank to that of the rocker.
     pub ground: f64,

@@ -96,7 +96,6 @@ pub enum Variation {
         frequency: f64,
         /// Of the stiffness; together below it.
         stiffness: Vec<Harmonic>,
-        /// Of the error.
         error: Vec<Harmonic>,
     },
 }
@@ -130,38 +129,6 @@ impl Variation {
             zone(two, double, entering * next_error + leaving * one_error),
             zone(one, single, single * next_error),
         ])
-    }
-
-    /// The same in other units: of a stiffness (N/m), a length (m) and a time (s).
-    #[must_use]
-    pub(super) fn scaled(&self, unit: f64, length: f64, time: f64) -> Self {
-        let swings = |list: &[Harmonic], unit: f64| {
-            list.iter().map(|h| Harmonic { cosine: h.cosine / unit, sine: h.sine / unit, ..*h }).collect()
-        };
-        match self {
-            Self::Zones(zones) => Self::Zones(
-                zones
-                    .iter()
-                    .map(|zone| Zone {
-                        duration: zone.duration / time,
-                        stiffness: zone.stiffness / unit,
-                        error_force: zone.error_force / (unit * length),
-                    })
-                    .collect(),
-            ),
-            Self::Teeth(teeth) => Self::Teeth(Teeth {
-                double: teeth.double / unit,
-                single: teeth.single / unit,
-                leaving: teeth.leaving / unit,
-                errors: teeth.errors.map(|error| error / length),
-                ..*teeth
-            }),
-            Self::Harmonics { frequency, stiffness, error } => Self::Harmonics {
-                frequency: frequency * time,
-                stiffness: swings(stiffness, unit),
-                error: swings(error, length),
-            },
-        }
     }
 
     /// Mean stiffness over a cycle.

@@ -12,7 +12,6 @@ use super::series::{Series, Turn, ZERO, add_harmonic, product, quotient};
 /// A torque, N m, or a force, N, where the coordinate is a way.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Source {
-    /// Constant.
     Constant(f64),
     /// Steps or straight lines against time.
     Program(LoadProgram),

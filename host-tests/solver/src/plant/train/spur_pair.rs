@@ -15,7 +15,6 @@
 
 use super::{Coordinate, Link, Source, Train, Variation};
 
-/// A bearing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpurBearing {
     /// kg.
@@ -45,7 +44,6 @@ pub struct SpurWheel {
     pub bearings: [SpurBearing; 2],
 }
 
-/// The pair.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpurPair {
     /// The driving wheel.
@@ -65,7 +63,6 @@ pub struct SpurPair {
 }
 
 impl SpurPair {
-    /// Coordinates.
     pub const COORDINATES: usize = 14;
     /// Link of the mesh. Of each wheel follow the shaft along Y, along X, and the bearings, each along Y and X.
     pub const MESH: usize = 0;
@@ -114,56 +111,4 @@ impl SpurPair {
         }
         (coordinates, links)
     }
-
-    /// The pair in units of its own: of mass `m = m_1 m_2/(m_1 + m_2)` with `m_i = J_i/r_bi^2`, of time the inverse of
-    /// `sqrt(k/m)`, of length half its backlash; without one, what the tooth force of its torque deflects the mesh by,
-    /// and 1 m without a torque. Mass and stiffness of the mesh are 1 [derived; Tang 1994 (1.7) is non-dimensional].
-    /// Angles stay as they are.
-    #[must_use]
-    pub fn non_dimensional(&self) -> (Self, Scales) {
-        let [one, two] = [&self.pinion, &self.wheel].map(|body| body.inertia / body.base_radius.powi(2));
-        let mass = one * two / (one + two);
-        let static_way = (self.torque / (self.pinion.base_radius * self.mesh_stiffness)).abs();
-        let ways = [0.5 * self.gap, static_way];
-        let length = ways.into_iter().find(|way| *way > 0.0).unwrap_or(1.0);
-        let scales = Scales { mass, length, time: (mass / self.mesh_stiffness).sqrt() };
-        let Scales { time, .. } = scales;
-        let (stiffness, damping) = (mass / (time * time), mass / time);
-        let bearing = |bearing: SpurBearing| SpurBearing {
-            mass: bearing.mass / mass,
-            lever: bearing.lever / length,
-            stiffness: bearing.stiffness.map(|k| k / stiffness),
-            damping: bearing.damping.map(|d| d / damping),
-        };
-        let wheel = |body: &SpurWheel| SpurWheel {
-            mass: body.mass / mass,
-            inertia: body.inertia / (mass * length * length),
-            base_radius: body.base_radius / length,
-            shaft_stiffness: body.shaft_stiffness / stiffness,
-            shaft_damping: body.shaft_damping / damping,
-            bearings: body.bearings.map(bearing),
-        };
-        let variation = self.variation.as_ref().map(|variation| variation.scaled(stiffness, length, time));
-        let pair = Self {
-            pinion: wheel(&self.pinion),
-            wheel: wheel(&self.wheel),
-            mesh_stiffness: self.mesh_stiffness / stiffness,
-            mesh_damping: self.mesh_damping / damping,
-            variation,
-            gap: self.gap / length,
-            torque: self.torque / (stiffness * length * length),
-        };
-        (pair, scales)
-    }
-}
-
-/// Units of a pair without dimensions.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Scales {
-    /// kg.
-    pub mass: f64,
-    /// m.
-    pub length: f64,
-    /// s.
-    pub time: f64,
 }

@@ -2,7 +2,6 @@
 
 /// What an elimination needs of its numbers.
 pub(super) trait Number: Copy {
-    /// Zero.
     const ZERO: Self;
     /// A constant.
     fn real(value: f64) -> Self;

@@ -1,7 +1,7 @@
 //! Natural frequencies of published machines (`data/torsional_modes.json`), each by every way that applies. Those of
 //! chains with extreme ratios are held in `machine_modes.rs`.
 
-use driveline_solver::plant::modes::{System, SystemError, holzer};
+use driveline_solver::plant::modes::System;
 use serde::Deserialize;
 
 #[derive(Deserialize)]
@@ -20,7 +20,6 @@ struct Case {
     n_zero_modes: usize,
     expected_omega_rad_s: Vec<f64>,
     expected_damped_eigenvalues_re_im_1_s: Option<Vec<(f64, f64)>>,
-    equivalent_chain_referred_to_drive: Option<ChainData>,
     rel_tol: f64,
     two_mass_reduction: Reduction,
 }
@@ -49,13 +48,6 @@ struct GearData {
     node: usize,
     R_parent: f64,
     R: f64,
-}
-
-#[derive(Deserialize)]
-#[allow(non_snake_case)]
-struct ChainData {
-    J: Vec<f64>,
-    k: Vec<f64>,
 }
 
 #[derive(Deserialize)]
@@ -111,32 +103,6 @@ fn published_machines_by_eigenvalues_and_by_jacobi() {
 }
 
 #[test]
-fn geared_chains_as_plain_ones_and_their_frequencies_by_holzer() {
-    let mut checked = 0;
-    for case in cases() {
-        let system = system(&case);
-        let found = system.equivalent_chain(case.two_mass_reduction.drive_node);
-        let Some(expected) = &case.equivalent_chain_referred_to_drive else {
-            assert!(matches!(found, Err(SystemError::NotAChain { .. })), "{} {found:?}", case.id);
-            continue;
-        };
-        let chain = found.unwrap();
-        // products of a few numbers
-        assert!(largest_error(&chain.inertia, &expected.J) <= 1e-14, "{}", case.id);
-        assert!(largest_error(&chain.stiffness, &expected.k) <= 1e-14, "{}", case.id);
-        for &omega in &case.expected_omega_rad_s[case.n_zero_modes..] {
-            let (low, high) = (omega * (1.0 - 1e-4), omega * (1.0 + 1e-4));
-            let found = holzer::frequency_between(&chain.inertia, &chain.stiffness, low, high);
-            let found = found.unwrap_or_else(|| panic!("{} no change of sign at {omega}", case.id));
-            assert!((found / omega - 1.0).abs() <= case.rel_tol, "{} {found} {omega}", case.id);
-            checked += 1;
-        }
-    }
-    println!("{checked} frequencies agree with Holzer's residual torque");
-    assert_eq!(checked, 1 + 4 + 2 + 3);
-}
-
-#[test]
 fn damped_eigenvalues_of_a_geared_drive_train() {
     let mut checked = 0;
     for case in cases() {
@@ -176,7 +142,6 @@ fn a_branch_closed_to_a_ring_has_the_frequencies_of_a_ring() {
     // three by three: rounding only
     assert!(largest_error(&system.frequencies().unwrap(), &expected) < 1e-14);
     assert!(largest_error(&system.modes().unwrap().omega, &expected) < 1e-14);
-    assert!(matches!(system.equivalent_chain(0), Err(SystemError::NotAChain { .. })));
 }
 
 #[test]

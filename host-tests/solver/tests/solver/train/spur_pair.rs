@@ -3,7 +3,7 @@
 
 use driveline_solver::plant::train::converge::{Recording, prove};
 use driveline_solver::plant::train::{
-    Coordinate, Harmonic, Link, Scales, Signal, SpurBearing, SpurPair, SpurWheel, Teeth, Train, Variation,
+    Coordinate, Harmonic, Link, Signal, SpurBearing, SpurPair, SpurWheel, Teeth, Train, Variation,
 };
 use nalgebra::{Complex, DMatrix, DVector, SymmetricEigen};
 
@@ -150,32 +150,6 @@ fn the_tooth_force_of_the_pair_with_its_error_is_that_of_the_closed_form() {
         let found = motion.force(SpurPair::MESH);
         assert!((found - expected).abs() < 1e-8 * force.norm(), "{step}: {found} {expected} of {}", force.norm());
     }
-}
-
-/// In its own units the pair has its frequencies over that of the mesh, and the same run: ways, angles and forces.
-#[test]
-fn without_dimensions_the_pair_runs_the_same() {
-    let mut pair = pair(1.0);
-    (pair.gap, pair.torque) = (6e-5, 250.0);
-    pair.variation = Some(Variation::pairs(1.6, 1500.0, [6.8e8, 3.0e8], 4.0e8, [8e-6, -3e-6]));
-    let (other, Scales { mass, length, time }) = pair.non_dimensional();
-    assert!((other.mesh_stiffness - 1.0).abs() < 1e-14 && (length - 3e-5).abs() < 1e-18);
-    for (own, si) in other.train().modes().unwrap().omega.iter().zip(pair.train().modes().unwrap().omega).skip(1) {
-        // an eigenvalue's rounding of the largest, a hundred times the least
-        assert!((own / (si * time) - 1.0).abs() < 1e-12, "{own} {si}");
-    }
-    let held = |pair: &SpurPair| pair.train().pretensioned(9).unwrap().build().unwrap();
-    let (mut own, mut si) = (held(&other), held(&pair));
-    let force = mass * length / (time * time);
-    for step in 1..=400 {
-        own.advance(1e-5 / time);
-        si.advance(1e-5);
-        // roundings that the impacts of four milliseconds have let grow
-        let (a, b) = (own.force(SpurPair::MESH) * force, si.force(SpurPair::MESH));
-        assert!((a - b).abs() < 1e-8 * 6e3, "{step}: {a} {b}");
-        assert!((own.angle(2) - si.angle(2)).abs() < 1e-10, "{step}: {} {}", own.angle(2), si.angle(2));
-    }
-    assert!(si.events().len() == own.events().len());
 }
 
 /// Two pairs in contact, each with its own stiffness and error: the force at rest is `sum k_i (x - e_i)`, and pairs by
