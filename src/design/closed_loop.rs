@@ -201,6 +201,14 @@ impl ClosedLoop {
         (numerator.times(&self.numerator), denominator.times(&self.denominator))
     }
 
+    /// Response of the loop round a machine at a frequency (rad/s), as real and imaginary part: the torque that the
+    /// drive gives against one that is added where the loop is cut. Its margins are [`margins`](Self::margins).
+    #[must_use]
+    pub const fn response(&self, plant: &Plant, frequency: f64) -> (f64, f64) {
+        let (numerator, denominator) = self.open(plant);
+        OpenLoop::Ratio(numerator, denominator, self.period).response(frequency)
+    }
+
     /// Whether the loop round a machine is stable with its torque times `gain`.
     #[must_use]
     pub const fn is_stable(&self, plant: &Plant, gain: f64) -> bool {

@@ -61,7 +61,7 @@ pub(super) enum OpenLoop {
 
 impl OpenLoop {
     /// Response at a frequency (rad/s).
-    const fn response(&self, frequency: f64) -> Complex {
+    pub(super) const fn response(&self, frequency: f64) -> Complex {
         match self {
             Self::Late(open) => open.response(frequency),
             Self::Ratio(numerator, denominator, period) => {

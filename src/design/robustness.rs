@@ -56,7 +56,10 @@ impl LoopObserver<'_> {
     }
 
     /// The loop with its torque as described, and as late as the tolerance allows.
-    const fn close_within(
+    ///
+    /// # Errors
+    /// As [`ClosedLoop::of`].
+    pub const fn close_within(
         &self,
         speed_loop: &SpeedLoopDesign,
         actuator: Actuator,

@@ -129,13 +129,16 @@ impl Tolerance {
         spreads && rest && gap.min >= 0.0 && gap.max >= gap.min && *lag >= 0.0 && lag.is_finite()
     }
 
-    /// Machines that these tolerances are sampled by.
-    pub(super) const fn machines(&self) -> u32 {
+    /// Number of machines that sample these tolerances: all combinations of the points of both inertias and the
+    /// stiffness.
+    #[must_use]
+    pub const fn machines(&self) -> u32 {
         self.motor_inertia.points() * self.load_inertia.points() * self.stiffness.points()
     }
 
-    /// One of them.
-    pub(super) const fn machine(&self, nominal: &TwoMass, index: u32) -> TwoMass {
+    /// One of the [`machines`](Self::machines), by its index from 0.
+    #[must_use]
+    pub const fn machine(&self, nominal: &TwoMass, index: u32) -> TwoMass {
         let (motor, load) = (self.motor_inertia.points(), self.load_inertia.points());
         let mut machine = *nominal;
         machine.motor_inertia *= self.motor_inertia.at(index % motor);

@@ -90,9 +90,10 @@ pub fn tick(value: f64, step: f64) -> String {
         return "0".to_owned();
     }
     let decimals = (-step.log10().floor()).clamp(0.0, 9.0) as usize;
-    let text =
-        if value.abs() >= 1e7 || step < 1e-6 { format!("{value:.1e}") } else { format!("{:.decimals$}", value.abs()) };
-    if value < 0.0 && value.abs() < 1e7 { format!("−{text}") } else { text }
+    // in a power of ten where the digits would fill the margin
+    let size = value.abs();
+    let text = if size >= 1e7 || step < 1e-4 { format!("{size:.1e}") } else { format!("{size:.decimals$}") };
+    if value < 0.0 { format!("−{text}") } else { text }
 }
 
 /// A power of ten with a raised exponent: `10⁻⁶`; small powers plain.
@@ -134,7 +135,7 @@ mod tests {
         assert_eq!(rate(10_000), "10 kHz");
         assert_eq!(power(-12), "10⁻¹²");
         assert_eq!(power(2), "100");
-        assert_eq!(tick(-0.25, 0.05), "−0.25");
+        assert_eq!([tick(-0.25, 0.05), tick(-5e-6, 5e-6), tick(-2e7, 1e7)], ["−0.25", "−5.0e-6", "−2.0e7"]);
         assert_eq!([turned(359.96, 1), turned(359.94, 1), turned(-90.4, 0)], ["0.0", "359.9", "270"]);
         assert_eq!([turned(-0.04, 1), turned(-0.3, 0), turned(-360.0, 1)], ["0.0", "0", "0.0"]);
         // in tables beside numbers that are not grouped

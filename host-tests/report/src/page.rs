@@ -16,6 +16,7 @@ const TEMPLATES: &[(&str, &str)] = &[
     ("sheet.html", include_str!("page/sheet.html")),
     ("frame.html", include_str!("page/frame.html")),
     ("style.css", include_str!("page/style.css")),
+    ("viewer.js", include_str!("page/viewer.js")),
 ];
 
 /// Fills a template. Everything is escaped but what is marked as safe: our own SVG and style.

@@ -1,9 +1,11 @@
 //! A small SVG writer. Colours and type come from the page's style by class, so that a plot follows the reader's
 //! light or dark theme; a plotting library would fix them in the plot.
 
+mod axes;
 mod scale;
 mod trace;
 
+pub use axes::Axes;
 pub use scale::Scale;
 pub use trace::trace;
 

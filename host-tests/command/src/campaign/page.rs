@@ -46,8 +46,8 @@ impl Summary {
             places: shares.clone(),
             curves: ERRORS.iter().enumerate().map(curve).collect(),
             marks: vec![(50.0, "median".to_owned()), (90.0, "90 %".to_owned())],
-            points: Vec::new(),
             logarithmic: true,
+            ..Lines::default()
         };
         Drawing {
             title: "Errors of the estimates".to_owned(),

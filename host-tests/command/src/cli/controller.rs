@@ -271,6 +271,12 @@ fn finite(value: f64) -> Option<f64> {
 }
 
 impl Margins {
+    /// Those that [`LeastMargins`] has.
+    pub const fn least(&self) -> LeastMargins {
+        let Self { gain_up, gain_down, phase, delay, modulus, .. } = *self;
+        LeastMargins { gain_up, gain_down, phase, delay, modulus }
+    }
+
     fn of(machine: &MachineFile, two: &TwoMass, closed: &ClosedLoop) -> Result<Self, Error> {
         let plant = Plant::of_modes(two.total_inertia(), &machine.modes());
         let margins = closed.margins(&plant)?;

@@ -1,14 +1,22 @@
 //! `cargo driveline design`: observer and governor of a machine.
 
+mod linear;
+mod page;
+mod responses;
+
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use self::page::page;
+use self::responses::Responses;
 use super::controller::{Causes, Margins, Predicted, SpeedLoop};
 use super::project::tolerance;
+use super::results::{Destination, check};
 use super::{Failure, Plan, rust, say, say_json};
 use crate::machine_file::class::Class;
+use crate::machine_file::designs::Designs;
 use crate::machine_file::{MachineFile, read};
 use driveline::design::{Actuator, Spread, Tolerance};
 use driveline_report::Table;
@@ -22,6 +30,7 @@ use driveline_report::format::{counted, percent, rate, significant};
   cargo driveline example hoist > hoist.toml
   cargo driveline design hoist.toml
   cargo driveline design my.toml --emit rust > src/my_machine.rs
+  cargo driveline design my.toml --html my.html
   cargo driveline design my.toml --json")]
 pub struct Design {
     /// The machine: a TOML file of elements from the motor to the load
@@ -29,7 +38,10 @@ pub struct Design {
     /// Print constants to paste into a firmware, instead of the tables
     #[arg(long, value_name = "LANGUAGE")]
     emit: Option<Language>,
-    /// Print JSON; with --emit, {"rust": "..."}
+    /// Write a page: Bode and Nyquist plots of the loop, machine, observer, steps, margins, poles
+    #[arg(long, value_name = "PATH", alias = "page")]
+    html: Option<PathBuf>,
+    /// Print JSON, with the responses as arrays; with --emit, {"rust": "..."}
     #[arg(long)]
     pub json: bool,
 }
@@ -49,6 +61,8 @@ impl Design {
     /// which the design is printed; of an unstable one no constants.
     pub fn execute(&self) -> Result<(), Failure> {
         let machine = read(&self.file)?;
+        let html = self.html.as_ref().map(|path| Destination::chosen("page", path));
+        check(&[&self.file], &html)?;
         let refused = |error: String| Failure::usage(format!("{}: no drive can be made: {error}", self.file.display()));
         let plan = Plan::with_dampers(&machine).map_err(refused)?;
         let speed_loop = plan.speed_loop.as_ref();
@@ -56,13 +70,17 @@ impl Design {
         if let (Some(_), Some(why)) = (self.emit, unstable) {
             return Err(Failure::failed(format!("{}: no constants are printed: {why}", self.file.display())));
         }
+        let drawn = || responses(&machine).map_err(refused);
         match (self.emit, self.json) {
             (Some(Language::Rust), true) => {
                 say_json(&serde_json::json!({ "rust": emitted(&machine, &plan).map_err(refused)? }))?;
             }
             (Some(Language::Rust), false) => say(emitted(&machine, &plan).map_err(refused)?.trim_end()),
-            (None, true) => say_json(&plan)?,
+            (None, true) => say_json(&Whole { plan: &plan, responses: drawn()? })?,
             (None, false) => say(text(&machine, &plan)),
+        }
+        if let Some(html) = html {
+            html.write_and_say(&page(&plan, drawn()?.as_ref()), self.json)?;
         }
         let lack = |which: &str, why: &String| {
             Failure::failed(format!("{}: the speed loop {which} margins: {why}", self.file.display()))
@@ -72,6 +90,22 @@ impl Design {
         }
         speed_loop.and_then(|governor| governor.not_robust.as_ref()).map_or(Ok(()), |why| Err(lack("lacks", why)))
     }
+}
+
+/// The design with the arrays of its loop.
+#[derive(serde::Serialize)]
+struct Whole<'p> {
+    #[serde(flatten)]
+    plan: &'p Plan,
+    /// `null` where the machine has no shaft.
+    responses: Option<Responses>,
+}
+
+/// The responses of the loop; none where the machine has no shaft.
+fn responses(machine: &MachineFile) -> Result<Option<Responses>, String> {
+    let damped = machine.with_dampers()?;
+    let of = |two| Responses::of(&damped, &Designs::of(&damped, &two)?);
+    damped.two_masses().map(of).transpose().map_err(|error| error.to_string())
 }
 
 /// The constants, and which parts of the design are none of them.

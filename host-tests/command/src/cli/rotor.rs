@@ -317,8 +317,8 @@ fn page(rotor: &RotorFile, found: &Found, responses: &[Response]) -> String {
             places: response.speeds.iter().map(|&speed| rpm(speed)).collect(),
             curves: response.amplitudes.iter().zip(&legend).map(curve).collect(),
             marks: marks(found),
-            points: Vec::new(),
             logarithmic: true,
+            ..Lines::default()
         };
         figures.push(Figure {
             title: title.to_owned(),
@@ -381,7 +381,7 @@ fn campbell(found: &Found) -> Lines {
                 (rpm(c.speed), c.speed / TAU, class(c.sense).to_owned(), title)
             })
             .collect(),
-        logarithmic: false,
+        ..Lines::default()
     }
 }
 

@@ -11,6 +11,7 @@ mod girder;
 mod identify;
 mod installed;
 mod locks;
+mod loop_measured;
 mod machine_file;
 mod motor_wheel;
 mod prime_movers;

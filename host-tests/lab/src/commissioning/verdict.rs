@@ -249,6 +249,7 @@ fn plots(case: &Case, course: &Course) -> Vec<Figure> {
             marks: vec![(fitted[4] / TAU, "antiresonance".into()), (fitted[3] / TAU, "resonance".into())],
             logarithmic: true,
             places,
+            ..Lines::default()
         };
         let text = "Acceleration of the motor per torque: the lines of the last records upwards and downwards as \
             points, the two masses that were \

@@ -29,6 +29,28 @@
     if (more > 0) say(`cut off by ${more}: ${cut(part.textContent)}`);
   }
 
+  // every plot gives its values under the cursor, and a drag across it zooms until a double click
+  for (const group of [...body.querySelectorAll("g.plot")].filter(seen)) {
+    const svg = group.ownerSVGElement, name = svg.getAttribute("aria-label");
+    const [left, top, right, bottom] = JSON.parse(group.dataset.frame), matrix = svg.getScreenCTM();
+    const send = (kind, share) => {
+      const { x, y } = new DOMPoint(left + share * (right - left), (top + bottom) / 2).matrixTransform(matrix);
+      svg.dispatchEvent(new PointerEvent(kind, { clientX: x, clientY: y, bubbles: true }));
+    };
+    if (!group.querySelector("path.curve,path.truth,path.estimate")) continue;
+    send("pointermove", 0.4);
+    const values = (svg.closest("figure") ?? svg.parentElement).querySelectorAll(".values");
+    if (![...values].some((one) => /\d.*\|.*\d/.test(one.textContent))) say(`no values under the cursor: ${name}`);
+    send("pointerdown", 0.3);
+    send("pointermove", 0.6);
+    send("pointerup", 0.6);
+    const zoomed = group.getAttribute("transform") ?? "";
+    if (!/^matrix\((3\.|[4-9])/.test(zoomed)) say(`a drag does not zoom (${zoomed}): ${name}`);
+    send("dblclick", 0.5);
+    if (group.getAttribute("transform") !== "matrix(1 0 0 1 0 0)") say(`a double click does not reset: ${name}`);
+    values.forEach((one) => { one.textContent = ""; });
+  }
+
   // a label's box without the room above and below its letters
   const box = (label) => {
     const { left, right, top, bottom } = label.getBoundingClientRect();

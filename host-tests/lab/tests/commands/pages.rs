@@ -8,8 +8,9 @@ use crate::browser::Browser;
 use crate::sample;
 
 /// Pages that a command writes within seconds: name of the page and arguments.
-const QUICK: [(&str, &str); 11] = [
+const QUICK: [(&str, &str); 12] = [
     ("modes", "modes hoist.toml"),
+    ("design", "design mill.toml"),
     ("modes-train", "modes gear-pair.toml"),
     ("campbell", "modes ship.toml"),
     ("rotor", "rotor three_discs.toml"),

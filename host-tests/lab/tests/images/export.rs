@@ -27,6 +27,8 @@ use object::read::archive::ArchiveFile;
 use object::{Object, ObjectSymbol};
 use tempfile::TempDir;
 
+use super::packages;
+
 #[rustfmt::skip]
 #[path = "export/hoist.rs"]
 pub mod hoist;
@@ -163,6 +165,7 @@ fn the_library_on_the_host_gives_the_bits_of_rust() {
     for (number, words) in [("f32", Words::Single), ("fixed", Words::Fixed)] {
         let run = if number == "f32" { run::<f32>(words) } else { run::<Fixed>(words) };
         let exported = Exported::new("host", number, None);
+        packages::build_on_the_host(&exported.file(""));
         for (name, sanitized) in compilers.into_iter().flatten() {
             let strict = ["-Wall", "-Wextra", "-Werror", "-O1", "-g"];
             let program = exported.folder.path().join("run");
@@ -190,12 +193,15 @@ fn the_library_on_the_host_gives_the_bits_of_rust() {
     }
 }
 
-/// The library has one object, which needs nothing of Rust and has none of the parts that were not asked for.
+/// The library has one object, which needs nothing of Rust and has none of the parts that were not asked for. Every
+/// package around it builds.
 #[test]
 fn the_library_holds_the_drive_alone() {
     for core in ["m0plus", "m3", "m4f", "m7", "m33"] {
         let number = if matches!(core, "m0plus" | "m3") { "fixed" } else { "f32" };
-        let bytes = fs::read(Exported::new(core, number, None).file("libhoist.a")).unwrap();
+        let exported = Exported::new(core, number, None);
+        packages::build_for_arm(&exported.file(""));
+        let bytes = fs::read(exported.file("libhoist.a")).unwrap();
         let members: Vec<_> = ArchiveFile::parse(&*bytes).unwrap().members().map(Result::unwrap).collect();
         assert_eq!(members.len(), 1, "{core}");
         let file = object::File::parse(members[0].data(&*bytes).unwrap()).unwrap();

@@ -13,5 +13,6 @@ mod images {
     mod link;
     mod link_log;
     mod new_project;
+    mod packages;
     mod panic;
 }

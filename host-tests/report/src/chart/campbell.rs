@@ -1,6 +1,6 @@
 //! The Campbell diagram: natural frequencies and excitation orders over speed.
 
-use crate::svg::{Anchor, Scale, Svg};
+use crate::svg::{Anchor, Axes, Scale, Svg};
 
 const WIDTH: f64 = 1080.0;
 const HEIGHT: f64 = 420.0;
@@ -46,14 +46,9 @@ pub fn campbell(natural: &[f64], rays: &[Ray], running: Option<(f64, f64)>, cros
     if let Some((least, greatest)) = running {
         svg.rect("strip", at(least), FRAME[1], at(greatest) - at(least), FRAME[3] - FRAME[1], 0.0);
     }
-    for (place, label) in x.ticks(9.0) {
-        svg.line("grid", place, FRAME[1], place, FRAME[3]);
-        svg.text("tick", place, FRAME[3] + 17.0, Anchor::Middle, &label);
-    }
-    for (place, label) in y.ticks(6.0) {
-        svg.line("grid", FRAME[0], place, FRAME[2], place);
-        svg.text("tick", FRAME[0] - 8.0, place + 4.0, Anchor::End, &label);
-    }
+    let axes = Axes { x, y, frame: FRAME };
+    axes.draw(&mut svg, ["speed of the motor, rad/s", "frequency, Hz"], [9.0, 6.0]);
+    axes.begin(&mut svg);
     for &frequency in natural.iter().filter(|frequency| **frequency <= top) {
         if let Some(place) = y.place(frequency) {
             svg.path("curve truth", &[(FRAME[0], place), (FRAME[2], place)]);
@@ -76,7 +71,6 @@ pub fn campbell(natural: &[f64], rays: &[Ray], running: Option<(f64, f64)>, cros
             svg.marker(class, 0, at(crossing.speed), place, &crossing.title);
         }
     }
-    svg.text("axis", FRAME[2], FRAME[3] + 38.0, Anchor::End, "speed of the motor, rad/s");
-    svg.upright("axis", 14.0, (FRAME[1] + FRAME[3]) / 2.0, "frequency, Hz");
+    axes.end(&mut svg);
     svg.finish("Campbell diagram")
 }

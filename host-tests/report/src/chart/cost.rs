@@ -4,7 +4,7 @@ use super::front;
 use super::label::Labels;
 use crate::format;
 use crate::results::Variant;
-use crate::svg::{Anchor, Scale, Svg};
+use crate::svg::{Axes, Scale, Svg};
 
 const WIDTH: f64 = 540.0;
 const HEIGHT: f64 = 380.0;
@@ -68,7 +68,9 @@ pub fn error_against_cost(variants: &[Variant], look: &[(usize, usize)], cost: C
     let x = Scale::logarithmic(points.iter().map(|point| point.0).chain(worst), FRAME[0], FRAME[2]);
     let y = Scale::logarithmic(points.iter().map(|point| point.1), FRAME[3], FRAME[1]);
     let mut svg = Svg::new(WIDTH, HEIGHT);
-    axes(&mut svg, x, y, cost.axis(), quality.axis());
+    Axes { x, y, frame: FRAME }.draw(&mut svg, [cost.axis(), quality.axis()], [6.0, 6.0]);
+    svg.line("edge", FRAME[0], FRAME[3], FRAME[2], FRAME[3]);
+    svg.line("edge", FRAME[0], FRAME[1], FRAME[0], FRAME[3]);
     // A diverged result is drawn at the upper edge of a logarithmic axis.
     let place = |(a, b): (f64, f64)| x.place(a).zip(y.place(if b.is_finite() { b } else { f64::MAX }));
     let front = front(&points);
@@ -118,21 +120,6 @@ pub fn error_against_cost(variants: &[Variant], look: &[(usize, usize)], cost: C
         }
     }
     svg.finish(&format!("Error against cost: {} over {}", quality.axis(), cost.axis()))
-}
-
-fn axes(svg: &mut Svg, x: Scale, y: Scale, across: &str, up: &str) {
-    for (place, label) in x.ticks(6.0) {
-        svg.line("grid", place, FRAME[1], place, FRAME[3]);
-        svg.text("tick", place, FRAME[3] + 17.0, Anchor::Middle, &label);
-    }
-    for (place, label) in y.ticks(6.0) {
-        svg.line("grid", FRAME[0], place, FRAME[2], place);
-        svg.text("tick", FRAME[0] - 8.0, place + 4.0, Anchor::End, &label);
-    }
-    svg.line("edge", FRAME[0], FRAME[3], FRAME[2], FRAME[3]);
-    svg.line("edge", FRAME[0], FRAME[1], FRAME[0], FRAME[3]);
-    svg.text("axis", FRAME[2], FRAME[3] + 38.0, Anchor::End, across);
-    svg.upright("axis", 14.0, (FRAME[1] + FRAME[3]) / 2.0, up);
 }
 
 /// The front as a staircase: for a cost between two of its points, the cheaper one applies.

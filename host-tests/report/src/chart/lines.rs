@@ -1,6 +1,6 @@
 //! Curves over a common axis: a Campbell diagram, an amplitude over the speed, a course over time.
 
-use crate::svg::{Anchor, Scale, Svg, text_width, trace};
+use crate::svg::{Anchor, Axes, Scale, Svg, text_width, trace};
 
 const WIDTH: f64 = 1080.0;
 const FRAME: [f64; 4] = [78.0, 30.0, WIDTH - 24.0, 400.0];
@@ -33,6 +33,21 @@ pub struct Lines {
     pub points: Vec<(f64, f64, String, String)>,
     /// Whether the values are drawn by their logarithm.
     pub logarithmic: bool,
+    /// Whether the common axis is drawn by its logarithm.
+    pub decades: bool,
+    /// Least and most of a value that has a range.
+    pub bands: Vec<Band>,
+}
+
+/// The range of a value over the common axis.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Band {
+    /// Style class.
+    pub class: String,
+    /// The least.
+    pub least: Vec<f64>,
+    /// The most.
+    pub most: Vec<f64>,
 }
 
 impl Lines {
@@ -42,23 +57,22 @@ impl Lines {
         let mut svg = Svg::new(WIDTH, HEIGHT);
         let [left, top, right, bottom] = FRAME;
         let ends = (self.places.first().copied().unwrap_or(0.0), self.places.last().copied().unwrap_or(1.0));
-        let x = Scale::exactly(ends.0, ends.1, left, right);
+        let scale = if self.decades { Scale::exactly_logarithmic } else { Scale::exactly };
+        let x = scale(ends.0, ends.1, left, right);
         let all = self.curves.iter().flat_map(|curve| curve.values.iter().copied());
+        let all = all.chain(self.bands.iter().flat_map(|band| band.least.iter().chain(&band.most).copied()));
         let all = all.chain(self.points.iter().map(|point| point.1)).filter(|value| value.is_finite());
-        let y = if self.logarithmic {
-            Scale::logarithmic(all, bottom, top)
-        } else {
-            Scale::linear(all.chain([0.0]), bottom, top)
-        };
-        for (place, label) in x.ticks(9.0) {
-            svg.line("grid", place, top, place, bottom);
-            svg.text("tick", place, bottom + 17.0, Anchor::Middle, &label);
-        }
-        for (place, label) in y.ticks(6.0) {
-            svg.line("grid", left, place, right, place);
-            svg.text("tick", left - 8.0, place + 4.0, Anchor::End, &label);
-        }
+        let y = if self.logarithmic { Scale::logarithmic(within(all), bottom, top) } else { self.linear(all) };
+        let axes = Axes { x, y, frame: FRAME };
+        axes.draw(&mut svg, [&self.along, &self.across], [9.0, 6.0]);
         self.draw_marks(&mut svg, x);
+        axes.begin(&mut svg);
+        for band in &self.bands {
+            let place = |values: &[f64], index: usize| x.place(self.places[index]).zip(y.place(values[index]));
+            let most = (0..band.most.len()).filter_map(|index| place(&band.most, index));
+            let least = (0..band.least.len()).rev().filter_map(|index| place(&band.least, index));
+            svg.path(&format!("band {}", band.class), &most.chain(least).collect::<Vec<_>>());
+        }
         for curve in &self.curves {
             svg.trace(&format!("curve {}", curve.class), &trace(&self.places, &curve.values, x, y, 2_000));
         }
@@ -67,9 +81,14 @@ impl Lines {
                 svg.marker(&format!("point {class}"), 0, px, py, title);
             }
         }
-        svg.text("axis", right, bottom + 38.0, Anchor::End, &self.along);
-        svg.upright("axis", 14.0, (top + bottom) / 2.0, &self.across);
+        axes.end(&mut svg);
         svg.finish(&self.label)
+    }
+
+    /// With zero on it; a frequency response's axis spans its values alone.
+    fn linear(&self, values: impl Iterator<Item = f64>) -> Scale {
+        let zero = (!self.decades).then_some(0.0);
+        Scale::linear(values.chain(zero), FRAME[3], FRAME[1])
     }
 
     fn draw_marks(&self, svg: &mut Svg, x: Scale) {
@@ -87,6 +106,15 @@ impl Lines {
             }
         }
     }
+}
+
+/// The values between the first and the last hundredth: an undamped peak has no height.
+fn within(values: impl Iterator<Item = f64>) -> impl Iterator<Item = f64> {
+    let mut all: Vec<f64> = values.filter(|value| *value > 0.0).collect();
+    all.sort_by(f64::total_cmp);
+    let cut = if all.len() > 1000 { all.len() / 100 } else { 0 };
+    let kept = all.len() - 2 * cut;
+    all.into_iter().skip(cut).take(kept)
 }
 
 /// A curve over time that a legend names.

@@ -1,6 +1,6 @@
 //! Several quantities over one time axis, each in a panel of its own, with levels that must not be passed.
 
-use crate::svg::{Anchor, Scale, Svg, trace};
+use crate::svg::{Anchor, Axes, Scale, Svg, trace};
 
 const WIDTH: f64 = 1080.0;
 const LEFT: f64 = 74.0;
@@ -31,21 +31,17 @@ pub fn panels(time: &[f64], panels: &[Panel<'_>], stretches: usize, label: &str)
         let (top, bottom) = (TOP + index as f64 * block, TOP + index as f64 * block + PLOT);
         let values = panel.series.iter().flat_map(|(_, values)| values.iter().copied());
         let y = Scale::linear(values.chain(panel.levels.iter().copied()), bottom, top);
-        for (place, text) in y.ticks(4.0) {
-            svg.line("grid", LEFT, place, RIGHT, place);
-            svg.text("tick", LEFT - 8.0, place + 4.0, Anchor::End, &text);
-        }
+        let axes = Axes { x, y, frame: [LEFT, top, RIGHT, bottom] };
+        axes.draw(&mut svg, ["", panel.name], [9.0, 4.0]);
         for level in panel.levels.iter().filter_map(|level| y.place(*level)) {
             svg.line("mark", LEFT, level, RIGHT, level);
         }
         svg.line("edge", LEFT, top, LEFT, bottom);
+        axes.begin(&mut svg);
         for (class, values) in &panel.series {
             svg.trace(class, &trace(time, values, x, y, stretches));
         }
-        svg.upright("axis", 16.0, top + PLOT / 2.0, panel.name);
-        for (place, text) in x.ticks(9.0) {
-            svg.text("tick", place, bottom + 16.0, Anchor::Middle, &text);
-        }
+        axes.end(&mut svg);
     }
     svg.text("axis", RIGHT, TOP + panels.len() as f64 * block, Anchor::End, "time, s");
     svg.finish(label)

@@ -1,7 +1,7 @@
 //! Truth, estimate and error over time: three quantities below each other on one time axis.
 
 use crate::format;
-use crate::svg::{Anchor, Scale, Svg, trace};
+use crate::svg::{Anchor, Axes, Scale, Svg, trace};
 use crate::trajectory::{Signal, Trajectory};
 
 const WIDTH: f64 = 1080.0;
@@ -59,8 +59,11 @@ fn panel(svg: &mut Svg, named: (&str, &str), signal: &Signal, along: (&[f64], Sc
     let ((name, unit), (time, x)) = (named, along);
     let y = Scale::linear(shown(signal), top + PLOT, top);
     grid(svg, y, top, top + PLOT, 4.0);
+    let axes = Axes { x, y, frame: [LEFT, top, RIGHT, top + PLOT] };
+    axes.begin(svg);
     svg.trace("truth", &trace(time, &signal.truth, x, y, stretches));
     svg.trace("estimate", &trace(time, &signal.estimate, x, y, stretches));
+    axes.end(svg);
     svg.upright("axis", 16.0, top + PLOT / 2.0, &format!("{name}, {unit}"));
 
     let error = signal.error();

@@ -51,6 +51,17 @@ impl Scale {
         Some(self.from + share * (self.to - self.from))
     }
 
+    /// A logarithmic axis from one positive number to another.
+    pub fn exactly_logarithmic(low: f64, high: f64, from: f64, to: f64) -> Self {
+        let low = low.max(f64::MIN_POSITIVE);
+        Self { logarithmic: true, ..Self::exactly(low.log10(), high.max(low).log10(), from, to) }
+    }
+
+    /// For the viewer: both ends, as logarithms where it is logarithmic, and whether it is.
+    pub(super) fn ends(&self) -> String {
+        format!("{},{},{}", self.low, self.high, u8::from(self.logarithmic))
+    }
+
     /// Ticks as places and labels: about `wanted` of them on a linear axis.
     pub fn ticks(&self, wanted: f64) -> Vec<(f64, String)> {
         if self.logarithmic { self.decades(wanted) } else { self.steps(wanted) }

@@ -224,8 +224,8 @@ impl Found {
                 places: points.iter().map(|point| point.0.log10()).collect(),
                 curves: vec![Curve { class: "s0".to_owned(), values: points.iter().map(|p| 100.0 * p.1).collect() }],
                 marks: vec![(self.to[k].log10(), "found".to_owned())],
-                points: Vec::new(),
                 logarithmic: true,
+                ..Lines::default()
             };
             Drawing {
                 title: tuned.key.clone(),

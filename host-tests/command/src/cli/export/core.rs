@@ -2,6 +2,7 @@
 
 use clap::ValueEnum;
 use driveline_qemu::setup::Need;
+use serde::Serialize;
 
 use crate::cli::project::Number;
 
@@ -22,7 +23,56 @@ pub enum Core {
     Host,
 }
 
+/// A core of Arm as build systems name it.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Arm {
+    /// Arduino's folder of precompiled libraries: core, and FPU with its calls.
+    pub folder: &'static str,
+    /// What it depends on in Zephyr's Kconfig.
+    kconfig: &'static str,
+    /// FPU in a CMSIS-Pack.
+    dfpu: &'static str,
+    /// The machine of QEMU that the example runs on.
+    #[serde(skip)]
+    pub qemu: Qemu,
+}
+
+/// A machine of QEMU.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Qemu {
+    machine: &'static str,
+    /// Origins of flash and RAM.
+    flash: &'static str,
+    ram: &'static str,
+}
+
+impl Qemu {
+    const fn new(machine: &'static str) -> Self {
+        Self { machine, flash: "0x00000000", ram: "0x20000000" }
+    }
+}
+
 impl Core {
+    /// As build systems name it; none for this computer.
+    pub const fn arm(self) -> Option<Arm> {
+        let (folder, kconfig, dfpu, qemu) = match self {
+            // QEMU has no Cortex-M0+; a Cortex-M3 has all its instructions
+            Core::M0plus => ("cortex-m0plus", "CPU_CORTEX_M0PLUS", "NO_FPU", Qemu::new("mps2-an385")),
+            Core::M3 => ("cortex-m3", "CPU_CORTEX_M3", "NO_FPU", Qemu::new("mps2-an385")),
+            Core::M4f => ("cortex-m4/fpv4-sp-d16-hard", "CPU_CORTEX_M4 && FPU", "SP_FPU", Qemu::new("mps2-an386")),
+            Core::M7 => ("cortex-m7/fpv5-sp-d16-hard", "CPU_CORTEX_M7 && FPU", "SP_FPU", Qemu::new("mps2-an500")),
+            Core::M33 => (
+                "cortex-m33/fpv5-sp-d16-hard",
+                "CPU_CORTEX_M33 && FPU",
+                "SP_FPU",
+                // the secure side's addresses
+                Qemu { machine: "mps2-an505", flash: "0x10000000", ram: "0x38000000" },
+            ),
+            Core::Host => return None,
+        };
+        Some(Arm { folder, kconfig, dfpu, qemu })
+    }
+
     /// The core, as `--core` names it.
     pub fn key(self) -> String {
         self.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::archive::DriveObject;
 use super::build::build;
-use super::core::Core;
+use super::core::{Arm, Core, Qemu};
 use super::interface::{Fault, REFUSALS, Refusal, faults, version};
 use crate::cli::Failure;
 use crate::cli::project::{Project, fill};
@@ -27,7 +27,34 @@ struct Values<'p> {
     word: &'static str,
     torque_base: String,
     speed_base: String,
+    version: &'static str,
+    arm: Option<Arm>,
+    qemu: Option<Qemu>,
 }
+
+/// Files for every core, by their templates; `NAME` in a path is the drive's.
+const FILES: [(&str, &str); 8] = [
+    ("NAME.h", "c/header.h"),
+    ("NAME.hpp", "c/header.hpp"),
+    ("NAME-config.cmake", "c/config.cmake"),
+    ("NAME-config-version.cmake", "c/config-version.cmake"),
+    ("NAME.mk", "c/make"),
+    ("Makefile", "c/Makefile"),
+    ("main.c", "c/main.c"),
+    ("README.md", "c/README.md"),
+];
+
+/// Files for a core of Arm: QEMU, Zephyr, PlatformIO, Arduino, CMSIS-Pack.
+const FOR_ARM: [(&str, &str); 8] = [
+    ("qemu/startup.c", "c/qemu/startup.c"),
+    ("qemu/memory.ld", "c/qemu/memory.ld"),
+    ("zephyr/module.yml", "c/zephyr/module.yml"),
+    ("zephyr/CMakeLists.txt", "c/zephyr/CMakeLists.txt"),
+    ("zephyr/Kconfig", "c/zephyr/Kconfig"),
+    ("library.json", "c/library.json"),
+    ("library.properties", "c/library.properties"),
+    ("driveline.NAME.pdsc", "c/pack.pdsc"),
+];
 
 /// The files of a library, by their paths, and the bytes of a drive's state.
 #[derive(Debug)]
@@ -60,6 +87,9 @@ pub fn library(project: &Project, source: &str, core: Core) -> Result<Library, F
         word: "uint32_t",
         torque_base: String::new(),
         speed_base: String::new(),
+        version: env!("CARGO_PKG_VERSION"),
+        arm: core.arm(),
+        qemu: core.arm().map(|arm| arm.qemu),
     };
     // of all that the header and the library must agree on
     let texts = ["lib.rs", "machine.rs", "c/c.rs", "c/header.h"].map(|template| fill(template, &values));
@@ -83,17 +113,20 @@ pub fn library(project: &Project, source: &str, core: Core) -> Result<Library, F
     values.word = if align == 8 { "uint64_t" } else { "uint32_t" };
     [values.torque_base, values.speed_base] = [torque, speed].map(|bits| format!("{:?}", f32::from_bits(bits)));
     let krate = &project.krate;
-    for (path, template) in [
-        (format!("{krate}.h"), "c/header.h"),
-        (format!("{krate}.hpp"), "c/header.hpp"),
-        (format!("{krate}.cmake"), "c/cmake"),
-        (format!("{krate}.mk"), "c/make"),
-        ("main.c".to_owned(), "c/main.c"),
-        ("README.md".to_owned(), "c/README.md"),
-    ] {
-        files.push((path, fill(template, &values).into_bytes()));
-    }
+    let for_arm = values.arm.map_or(&[][..], |_| &FOR_ARM);
+    files.extend(
+        FILES
+            .iter()
+            .chain(for_arm)
+            .map(|(path, template)| (path.replace("NAME", krate), fill(template, &values).into_bytes())),
+    );
     files.push((format!("lib{krate}.a"), object.archive()));
+    if let Some(arm) = values.arm {
+        // Arduino looks for all of it in `src`
+        files.push((format!("src/{}/lib{krate}.a", arm.folder), object.archive()));
+        let header = |kind| (format!("src/{krate}.{kind}"), format!("#include \"../{krate}.{kind}\"\n").into_bytes());
+        files.extend(["h", "hpp"].map(header));
+    }
     files.push(("machine.toml".to_owned(), source.into()));
     Ok(Library { files, state: size, undefined: object.undefined })
 }

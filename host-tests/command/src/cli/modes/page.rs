@@ -11,7 +11,7 @@ use super::figures::{campbell, shapes};
 use super::response::Response as Forced;
 use super::tables::tables;
 use crate::machine_file::MachineFile;
-use driveline_report::chart::{Response, Station, response};
+use driveline_report::chart::{Curve, Lines, Station};
 use driveline_report::format::significant;
 use driveline_report::{Fact, Figure, Key, Sheet};
 
@@ -39,15 +39,27 @@ pub fn page(machine: &MachineFile, vibration: &Vibration) -> String {
     }
     let frequency = frequencies(vibration);
     let stations: Vec<Station> = vibration.masses.iter().map(station).collect();
-    let responses = responses(machine, vibration, &frequency);
-    let felt = (!responses.is_empty()).then(|| Figure {
+    let (legend, curves) = responses(machine, vibration, &frequency);
+    let felt = (!curves.is_empty()).then(|| Figure {
         title: "What the motor feels".to_owned(),
         text: "Motor speed per motor torque: the whole chain, and the two masses that stand for it. Peaks are \
             resonances, \
                troughs antiresonances."
             .to_owned(),
-        legend: responses.iter().map(|item| Key::curve(&*item.name, &*item.class)).collect(),
-        plots: vec![response(&frequency, &responses)],
+        legend,
+        plots: vec![
+            Lines {
+                label: "Motor speed per motor torque over frequency".to_owned(),
+                along: "frequency, Hz".to_owned(),
+                across: "motor speed per torque, rad/s per N m".to_owned(),
+                places: frequency.clone(),
+                curves,
+                logarithmic: true,
+                decades: true,
+                ..Lines::default()
+            }
+            .draw(),
+        ],
         ..Figure::default()
     });
     let natural: Vec<f64> = vibration.resonances.iter().map(|mode| mode.hz).collect();
@@ -85,9 +97,9 @@ fn frequencies(vibration: &Vibration) -> Vec<f64> {
 }
 
 /// The whole chain, and the two matches.
-fn responses(machine: &MachineFile, vibration: &Vibration, frequency: &[f64]) -> Vec<Response> {
+fn responses(machine: &MachineFile, vibration: &Vibration, frequency: &[f64]) -> (Vec<Key>, Vec<Curve>) {
     if vibration.resonances.is_empty() {
-        return Vec::new();
+        return Default::default();
     }
     let least = vibration.damped.iter().map(|one| one.damping_ratio).fold(f64::INFINITY, f64::min);
     let drawn = if least > DRAWN_DAMPING && least.is_finite() { 0.0 } else { DRAWN_DAMPING };
@@ -95,16 +107,18 @@ fn responses(machine: &MachineFile, vibration: &Vibration, frequency: &[f64]) ->
     let shifts: Vec<Complex<f64>> = frequency.iter().map(shift).collect();
     let whole = Forced::of(machine).receptances(0, &shifts);
     let amplitude = whole.iter().zip(&shifts).map(|(angle, shift)| angle * shift.norm()).collect();
-    let mut curves = vec![Response { name: "whole chain".to_owned(), class: "truth".to_owned(), amplitude }];
+    let mut keys = vec![Key::curve("whole chain", "truth")];
+    let mut curves = vec![Curve { class: "truth".to_owned(), values: amplitude }];
     // Two masses stand for themselves.
     let matches = vibration.reductions.iter().zip([Match::ResonanceAntiresonance, Match::ModalTruncation]);
     for (index, (reduction, by)) in matches.enumerate().filter(|_| vibration.masses.len() > 2) {
         if let Ok(two) = machine.reduce(by) {
-            let amplitude = shifts.iter().map(|shift| mobility(*shift, &two)).collect();
-            curves.push(Response { name: reduction.by.clone(), class: format!("s{index}"), amplitude });
+            let (class, values) = (format!("s{index}"), shifts.iter().map(|shift| mobility(*shift, &two)).collect());
+            keys.push(Key::curve(&*reduction.by, &*class));
+            curves.push(Curve { class, values });
         }
     }
-    curves
+    (keys, curves)
 }
 
 /// Size of the motor's speed per torque of two masses at a shift `s`: `(J s^2 + d s + k)` of the load over the

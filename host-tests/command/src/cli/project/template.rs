@@ -16,7 +16,9 @@ templates! {
     "lib.rs" "machine.rs"
     "new/Cargo.toml" "new/README.md" "new/build.rs" "new/closed_loop.rs" "new/config.toml" "new/firmware.rs"
     "new/generic.rs" "new/main.rs" "new/memory.x" "new/nucleo_g474re.rs" "new/qemu.rs" "new/simulated.rs"
-    "c/Cargo.toml" "c/README.md" "c/c.rs" "c/cmake" "c/header.h" "c/header.hpp" "c/main.c" "c/make"
+    "c/Cargo.toml" "c/Makefile" "c/README.md" "c/c.rs" "c/config-version.cmake" "c/config.cmake" "c/header.h"
+    "c/header.hpp" "c/library.json" "c/library.properties" "c/main.c" "c/make" "c/pack.pdsc" "c/qemu/memory.ld"
+    "c/qemu/startup.c" "c/zephyr/CMakeLists.txt" "c/zephyr/Kconfig" "c/zephyr/module.yml"
     "fmu/controller.rs" "fmu/fmi.rs" "fmu/modelDescription.xml" "fmu/plant.rs"
 }
 

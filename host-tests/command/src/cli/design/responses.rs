@@ -1,0 +1,434 @@
+//! The speed loop in numbers to draw: responses over frequency with their band over the tolerances, margins, poles,
+//! steps.
+
+use std::f64::consts::{PI, TAU};
+
+use driveline::design::{ClosedLoop, Error, LoopObserver, Plant};
+use driveline::machine::TwoMass;
+use nalgebra::Complex;
+use serde::Serialize;
+
+use super::linear::{Body, Entry, Linear, Observer};
+use crate::machine_file::MachineFile;
+use crate::machine_file::designs::Designs;
+
+/// Where the loop is cut.
+pub const CUT: &str = "at the torque on the machine: from a torque that is added there, through machine, encoder, \
+    observer, governor and actuator, back to the torque that the drive gives";
+
+/// Points of a response, evenly spread by their logarithm.
+const POINTS: usize = 800;
+/// Points about each resonance, and how far they reach.
+const ABOUT: usize = 60;
+const REACH: f64 = 0.1;
+/// Most points of a step.
+const SHOWN: usize = 1_000;
+/// Steps last so many radians of the speed's natural frequency.
+const RADIANS: f64 = 14.0;
+
+/// Size and phase (degrees, unwrapped) over the common frequencies.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Curve {
+    /// Size.
+    pub gain: Vec<f64>,
+    /// Phase (degrees).
+    pub phase: Vec<f64>,
+}
+
+impl Curve {
+    fn of(response: &[Complex<f64>]) -> Self {
+        let mut turned = 0.0;
+        let mut before: Option<f64> = None;
+        let phase = |value: &Complex<f64>| {
+            let angle = value.arg();
+            turned -= before.map_or(0.0, |before| TAU * ((angle - before) / TAU).round());
+            before = Some(angle);
+            short((angle + turned).to_degrees())
+        };
+        Self {
+            gain: response.iter().map(|value| short(value.norm())).collect(),
+            phase: response.iter().map(phase).collect(),
+        }
+    }
+}
+
+/// Least and most of a curve over the tolerances.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Range {
+    /// The least of each.
+    pub least: Curve,
+    /// The most of each.
+    pub most: Curve,
+}
+
+impl Range {
+    fn of(curves: &[Curve]) -> Self {
+        let over = |part: fn(&Curve) -> &Vec<f64>, better: fn(f64, f64) -> f64| {
+            let mut all = curves.iter().map(part);
+            let first = all.next().cloned().unwrap_or_default();
+            all.fold(first, |found, one| found.iter().zip(one).map(|(a, b)| better(*a, *b)).collect())
+        };
+        let curve = |better| Curve { gain: over(|c| &c.gain, better), phase: over(|c| &c.phase, better) };
+        Self { least: curve(f64::min), most: curve(f64::max) }
+    }
+}
+
+/// A crossing of the loop's response: of the unit circle, or of the negative real axis.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Crossing {
+    /// Frequency (Hz).
+    pub hz: f64,
+    /// Of the unit circle: the phase to -180 degrees (degrees), and the dead time more that has as much (ms).
+    pub phase_margin: Option<f64>,
+    /// As above.
+    pub delay_margin: Option<f64>,
+    /// Of the negative real axis: the gain that is missing to 1 (dB).
+    pub gain_margin: Option<f64>,
+}
+
+/// A pole of the closed loop.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Pole {
+    /// In the plane of z.
+    pub re: f64,
+    /// As above.
+    pub im: f64,
+    /// Natural frequency (Hz), of `ln(z)` over a tick.
+    pub hz: f64,
+    /// Damping ratio.
+    pub damping_ratio: f64,
+}
+
+/// Course of a step: per rad/s of the setpoint, or per N m of load torque.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Step {
+    /// Speed of the motor (rad/s).
+    pub motor_speed: Vec<f64>,
+    /// Speed of the load (rad/s).
+    pub load_speed: Vec<f64>,
+    /// Torque of the motor (N m).
+    pub motor_torque: Vec<f64>,
+}
+
+/// The two steps.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Steps {
+    /// Of the setpoint, without its ramp.
+    pub setpoint: Step,
+    /// Of the load torque.
+    pub load: Step,
+}
+
+/// A machine at the edge of the tolerances, by its factors.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Drawn {
+    /// Factor of the motor side's inertia.
+    pub motor_inertia: f64,
+    /// Of the load side's inertia.
+    pub load_inertia: f64,
+    /// Of the stiffness.
+    pub stiffness: f64,
+    /// Of the torque.
+    pub torque: f64,
+    /// Whether the torque is as late as it may be.
+    pub is_late: bool,
+    /// Least distance of its loop from -1.
+    pub distance: f64,
+}
+
+/// What is drawn of one machine.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct One {
+    /// Motor speed per motor torque (rad/s per N m), in continuous time.
+    pub plant: Curve,
+    /// The loop.
+    pub open: Curve,
+    /// Its parts, for a Nyquist plot.
+    pub real: Vec<f64>,
+    /// As above.
+    pub imaginary: Vec<f64>,
+    /// Crossings of the unit circle and of the negative real axis.
+    pub crossings: Vec<Crossing>,
+    /// Least distance from -1 at the drawn points.
+    pub distance: f64,
+    /// Poles of the closed loop, without the free angle's.
+    pub poles: Vec<Pole>,
+    /// `null` where the loop is unstable.
+    pub steps: Option<Steps>,
+}
+
+/// The estimates per speed of the motor as it is measured, without a torque of the motor.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Observed {
+    /// Of the load speed: estimated.
+    pub load_speed: Curve,
+    /// As the two masses have it.
+    pub load_speed_of_two_masses: Curve,
+    /// Of the shaft torque (N m per rad/s): estimated.
+    pub shaft_torque: Curve,
+    /// As the two masses have it.
+    pub shaft_torque_of_two_masses: Curve,
+}
+
+/// The speed loop in numbers to draw.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Responses {
+    /// Where the loop is cut, in words.
+    pub cut: &'static str,
+    /// Frequencies (Hz), up to half the rate.
+    pub hz: Vec<f64>,
+    /// The machine as the file has it, with all its vibrations.
+    pub nominal: One,
+    /// The two masses whose loop comes nearest to -1 within the tolerances.
+    pub drawn: One,
+    /// Which those are.
+    pub drawn_by: Drawn,
+    /// The loop within the tolerances.
+    pub open_within: Range,
+    /// The machine within the tolerances.
+    pub plant_within: Range,
+    /// The observer.
+    pub observer: Observed,
+    /// Times of the steps (s).
+    pub time: Vec<f64>,
+}
+
+/// A machine in the loop.
+struct InLoop<'a> {
+    closed: &'a ClosedLoop,
+    plant: Plant,
+    body: Body,
+    torque: f64,
+    late: bool,
+}
+
+impl InLoop<'_> {
+    /// Response of the loop at a frequency (rad/s).
+    fn open(&self, frequency: f64) -> Complex<f64> {
+        let (re, im) = self.closed.response(&self.plant, frequency);
+        Complex::new(re, im) * self.torque
+    }
+}
+
+impl Responses {
+    /// Of a machine with its designs.
+    ///
+    /// # Errors
+    /// The library's sentence for a loop that it does not have.
+    pub fn of(machine: &MachineFile, designs: &Designs) -> Result<Self, Error> {
+        let Designs { two, speed_loop, .. } = designs;
+        let observer = match designs.is_rigid() {
+            true => LoopObserver::Rigid(&designs.rigid),
+            false => LoopObserver::TwoMass(&designs.two_masses),
+        };
+        let (actuator, tolerance, period) = (machine.actuator(), machine.tolerance(), speed_loop.period);
+        let loops = observer.close_within(speed_loop, actuator, &tolerance)?;
+        let (modes, load) = (machine.modes(), machine.chain.masses().len() - 1);
+        let nominal = InLoop {
+            closed: &loops[0],
+            plant: Plant::of_modes(two.total_inertia(), &modes),
+            body: Body::of_modes(two.total_inertia(), &modes, load),
+            torque: 1.0,
+            late: false,
+        };
+        let slowest = 1e-2 * speed_loop.integral / speed_loop.proportional;
+        let frequencies = frequencies(slowest, PI / period, two.antiresonance(), &nominal.body);
+        let within: Vec<(u32, InLoop)> = (0..4 * tolerance.machines())
+            .map(|index| {
+                let machine = tolerance.machine(two, index / 4);
+                let (late, most) = (index & 1 == 1, index & 2 == 2);
+                let torque = if most { tolerance.torque.max } else { tolerance.torque.min };
+                let closed = &loops[usize::from(late)];
+                let one = InLoop { closed, plant: Plant::of(&machine), body: Body::of(&machine), torque, late };
+                (index / 4, one)
+            })
+            .collect();
+        let open = |one: &InLoop| frequencies.iter().map(|&at| one.open(at)).collect::<Vec<_>>();
+        let of_loops: Vec<Vec<Complex<f64>>> = within.iter().map(|(_, one)| open(one)).collect();
+        let (nearest, distance) = of_loops
+            .iter()
+            .map(|one| distance(one))
+            .enumerate()
+            .fold((0, f64::INFINITY), |best, one| if one.1 < best.1 { one } else { best });
+        let (index, worst) = &within[nearest];
+        let factors = tolerance.machine(two, *index);
+        let drawn_by = Drawn {
+            motor_inertia: short(factors.motor_inertia / two.motor_inertia),
+            load_inertia: short(factors.load_inertia / two.load_inertia),
+            stiffness: short(factors.stiffness / two.stiffness),
+            torque: worst.torque,
+            is_late: worst.late,
+            distance: short(distance),
+        };
+        let later = driveline::design::Actuator {
+            delay: actuator.delay + f64::from(tolerance.late) * period,
+            lag: actuator.lag + tolerance.lag,
+        };
+        let seen = Observer::of(&observer, two).ok_or(Error::Unobservable)?;
+        let ticks = (RADIANS / (speed_loop.bandwidth * period)).ceil().clamp(2.0, 4e6) as usize;
+        let stride = ticks.div_ceil(SHOWN);
+        let one = |one: &InLoop| {
+            let actuator = if one.late { later } else { actuator };
+            let linear = Linear::new(one.body.clone(), seen.clone(), speed_loop, actuator, one.torque)?;
+            let is_stable = one.closed.is_stable(&one.plant, one.torque);
+            let steps = is_stable.then(|| Steps::of(&linear, ticks, stride));
+            Ok::<_, Error>(One::of(one, &frequencies, period, &linear, steps))
+        };
+        let plants: Vec<Curve> = within.iter().map(|(_, one)| Curve::of(&mobility(&one.body, &frequencies))).collect();
+        let curves: Vec<Curve> = of_loops.iter().map(|one| Curve::of(one)).collect();
+        Ok(Self {
+            cut: CUT,
+            nominal: one(&nominal)?,
+            drawn: one(worst)?,
+            drawn_by,
+            open_within: Range::of(&curves),
+            plant_within: Range::of(&plants),
+            observer: Observed::of(&seen, two, &frequencies, period).ok_or(Error::Unobservable)?,
+            time: (0..ticks).step_by(stride).map(|tick| short(tick as f64 * period)).collect(),
+            hz: frequencies.iter().map(|at| short(at / TAU)).collect(),
+        })
+    }
+}
+
+impl One {
+    fn of(one: &InLoop, frequencies: &[f64], period: f64, linear: &Linear, steps: Option<Steps>) -> Self {
+        let open: Vec<Complex<f64>> = frequencies.iter().map(|&at| one.open(at)).collect();
+        Self {
+            plant: Curve::of(&mobility(&one.body, frequencies)),
+            crossings: crossings(one, frequencies, &open),
+            distance: short(distance(&open)),
+            real: open.iter().map(|value| short(value.re)).collect(),
+            imaginary: open.iter().map(|value| short(value.im)).collect(),
+            open: Curve::of(&open),
+            poles: poles(linear, period),
+            steps,
+        }
+    }
+}
+
+impl Steps {
+    fn of(linear: &Linear, ticks: usize, stride: usize) -> Self {
+        let step = |entry| {
+            let shown = linear.step(entry, ticks, stride);
+            let part = |at: usize| shown.iter().map(|shown| short(shown[at])).collect();
+            Step { motor_speed: part(0), load_speed: part(1), motor_torque: part(2) }
+        };
+        Self { setpoint: step(Entry { setpoint: 1.0, load: 0.0 }), load: step(Entry { setpoint: 0.0, load: 1.0 }) }
+    }
+}
+
+impl Observed {
+    fn of(observer: &Observer, two: &TwoMass, frequencies: &[f64], period: f64) -> Option<Self> {
+        let estimated: Option<Vec<[Complex<f64>; 2]>> =
+            frequencies.iter().map(|&at| observer.response(at, period)).collect();
+        let (load_speed, shaft_torque): (Vec<_>, Vec<_>) = estimated?.into_iter().map(|[a, b]| (a, b)).unzip();
+        // the motor's inertia alone is what the shaft turns; the twist follows
+        let exact = |&at: &f64| {
+            let s = Complex::new(0.0, at);
+            let torque = -s * two.motor_inertia;
+            (1.0 - torque * s / (s * two.damping + two.stiffness), torque)
+        };
+        let (speed, torque): (Vec<_>, Vec<_>) = frequencies.iter().map(exact).unzip();
+        Some(Self {
+            load_speed: Curve::of(&load_speed),
+            load_speed_of_two_masses: Curve::of(&speed),
+            shaft_torque: Curve::of(&shaft_torque),
+            shaft_torque_of_two_masses: Curve::of(&torque),
+        })
+    }
+}
+
+/// Six digits, as the arrays are written.
+fn short(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+fn mobility(body: &Body, frequencies: &[f64]) -> Vec<Complex<f64>> {
+    frequencies.iter().map(|&at| body.mobility(at)).collect()
+}
+
+fn distance(open: &[Complex<f64>]) -> f64 {
+    open.iter().map(|value| (value + 1.0).norm()).fold(f64::INFINITY, f64::min)
+}
+
+/// Frequencies (rad/s) from the slowest to half the rate, denser about the antiresonance, the resonances and on their
+/// flanks.
+fn frequencies(slowest: f64, nyquist: f64, antiresonance: f64, body: &Body) -> Vec<f64> {
+    let even = (0..POINTS).map(|point| slowest * (nyquist / slowest).powf(point as f64 / (POINTS - 1) as f64));
+    let mut all: Vec<f64> = even.collect();
+    for [frequency, damping] in body.resonances().chain([[antiresonance, 0.0]]) {
+        let share = |point: usize| 1.0 - REACH + 2.0 * REACH * point as f64 / ABOUT as f64;
+        all.extend((0..=ABOUT).map(|point| frequency * share(point)));
+        let widths = [0.0, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0];
+        all.extend(widths.into_iter().flat_map(|n| [frequency - n * damping, frequency + n * damping]));
+    }
+    all.retain(|at| (slowest..=nyquist).contains(at));
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    all
+}
+
+/// Crossings of the unit circle and of the negative real axis, in the order of their frequency.
+fn crossings(one: &InLoop, frequencies: &[f64], open: &[Complex<f64>]) -> Vec<Crossing> {
+    let mut found = Vec::new();
+    let is_low = |value: Complex<f64>| value.norm() < 1.0;
+    let is_below = |value: Complex<f64>| value.im < 0.0;
+    for (ends, values) in frequencies.windows(2).zip(open.windows(2)) {
+        let of = |side: &dyn Fn(Complex<f64>) -> bool| {
+            let (mut low, mut high) = (ends[0], ends[1]);
+            for _ in 0..50 {
+                let middle = 0.5 * (low + high);
+                if side(one.open(middle)) == side(values[0]) { low = middle } else { high = middle }
+            }
+            let at = 0.5 * (low + high);
+            (at, one.open(at))
+        };
+        let none = Crossing { hz: 0.0, phase_margin: None, delay_margin: None, gain_margin: None };
+        if is_low(values[0]) != is_low(values[1]) {
+            let (at, value) = of(&is_low);
+            let (phase, lag) = ((-value).arg(), value.arg() + PI);
+            found.push(Crossing {
+                hz: short(at / TAU),
+                phase_margin: Some(short(phase.to_degrees())),
+                delay_margin: Some(short(1e3 * lag / at)),
+                ..none
+            });
+        }
+        if is_below(values[0]) != is_below(values[1]) {
+            let (at, value) = of(&is_below);
+            // a change of sign through the positive axis, or through a pole, is none
+            if value.re < 0.0 && value.im.abs() < 1e-3 * -value.re {
+                found.push(Crossing {
+                    hz: short(at / TAU),
+                    gain_margin: Some(short(-20.0 * value.norm().log10())),
+                    ..none
+                });
+            }
+        }
+    }
+    found
+}
+
+/// Poles of the closed loop, the slowest first.
+fn poles(linear: &Linear, period: f64) -> Vec<Pole> {
+    let mut poles = linear.poles().unwrap_or_default();
+    // a speed loop leaves the angle free
+    let free = (0..poles.len()).min_by(|&a, &b| (poles[a] - 1.0).norm().total_cmp(&(poles[b] - 1.0).norm()));
+    if let Some(free) = free {
+        poles.swap_remove(free);
+    }
+    // a conjugate is no other pole, and a delay's poles at 0 have no frequency
+    poles.retain(|pole| pole.im >= 0.0 && pole.norm() > 1e-6);
+    let pole = |pole: Complex<f64>| {
+        let s = pole.ln() / period;
+        Pole {
+            re: short(pole.re),
+            im: short(pole.im),
+            hz: short(s.norm() / TAU),
+            damping_ratio: short(-s.re / s.norm()),
+        }
+    };
+    let mut poles: Vec<Pole> = poles.into_iter().map(pole).collect();
+    poles.sort_by(|a, b| a.hz.total_cmp(&b.hz));
+    poles
+}
