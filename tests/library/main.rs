@@ -4,6 +4,7 @@
 mod axis;
 mod backlash;
 mod balance;
+mod citations;
 mod cranked;
 mod design;
 mod elements;
