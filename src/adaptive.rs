@@ -27,6 +27,7 @@
 //!     const RATING: Rating = Rating { torque: Torque(300.0), speed: Speed::rpm(1480.0), torque_limit: Torque(600.0) };
 //!     const ENCODER: Encoder = Encoder::lines(1024);
 //!     const RATE_HZ: u32 = 10_000;
+//!     const DISTURBANCE: Disturbance = Self::RATING.hoisting(Self::RATE);
 //! }
 //! impl HasLoadAndRope<3, 2> for Crane {
 //!     const LOAD: [Mass; 2] = [Mass(500.0), Mass(5_500.0)];

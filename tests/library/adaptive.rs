@@ -5,7 +5,6 @@ mod wiring;
 use std::f64::consts::TAU;
 
 use driveline::configure::Units;
-use driveline::design::Disturbance;
 use driveline::drive::Composition;
 use driveline::governor::SetpointLag;
 use driveline::learning::{EccentricityObserver, Learnt};
@@ -161,7 +160,7 @@ fn run<const RATE_HZ: u32, D: Composition<Number: Units>>(
         let load = lift.named.then_some(lift.mass as f32);
         background(drive, tick, &if tick == 0 { Known { load, ..first } } else { Known { rope: None, load } });
         plant.advance(GAIN * commanded + OFFSET, period);
-        if tick % (RATE_HZ / 20) == 0 {
+        if tick.is_multiple_of(RATE_HZ / 20) {
             let [stiffness, damping] = rope(lift.rope - TRAVEL * plant.motor_angle());
             plant.set_shaft(1, stiffness, damping);
         }
@@ -173,7 +172,7 @@ fn run<const RATE_HZ: u32, D: Composition<Number: Units>>(
 type Calls = fn(u32) -> bool;
 const EACH_TICK: Calls = |_| true;
 /// A main loop: from 1 to 30 ms apart, as a multiple of the tick's number in bits gives it.
-const MAIN_LOOP: Calls = |tick| tick.wrapping_mul(2_654_435_761) < 0x0200_0000 || tick % 300 == 0;
+const MAIN_LOOP: Calls = |tick| tick.wrapping_mul(2_654_435_761) < 0x0200_0000 || tick.is_multiple_of(300);
 
 macro_rules! sites {
     ($($site:ident: $number:ty, $observer:ident, $rate_hz:literal;)+) => {$(

@@ -50,7 +50,7 @@ impl Course {
             let command = self.drive.tick(&CONFIG, &self.sample(carried + 0.4 * step * 4_000.0));
             assert!(command.faults.is_none(), "{} rad/s: {}", self.speed, command.faults);
             self.tick += 1;
-            if self.tick % self.every == 0 {
+            if self.tick.is_multiple_of(self.every) {
                 self.drive.background(&CONFIG, &Known::NOTHING);
             }
         }
@@ -222,7 +222,7 @@ fn a_drive_without_schedule_and_learners_is_the_drive() {
     for tick in 0..20_000_u32 {
         angle += 1e-3 * (1.0 + 0.1 * noise.normal());
         let read = (angle * 4_294_967_296.0 / 6.3) as i64 as u32;
-        let torque = if tick % 997 == 0 { f32::NAN } else { 100.0 * noise.normal() as f32 };
+        let torque = if tick.is_multiple_of(997) { f32::NAN } else { 100.0 * noise.normal() as f32 };
         let sample = Sample::si::<M>(read, torque, 50.0);
         let (one, other) = if tick % 5_000 < 100 {
             (plain.hold(&PLAIN, read, sample.setpoint), empty.hold(&EMPTY, read, sample.setpoint))

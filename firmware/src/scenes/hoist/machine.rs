@@ -50,9 +50,6 @@ impl<const RATE_HZ: u32> Machine for Hoist<RATE_HZ> {
     const RATING: Rating = Rating { torque: Torque(750.0), speed: Speed(155.0), torque_limit: Torque(1_350.0) };
     const ENCODER: Encoder = Encoder::lines(2048);
     const RATE_HZ: u32 = RATE_HZ;
-    /// The load may wander by 300 N m, two fifths of a load, in 50 s. The torque counts as less accurate in a tick than
-    /// its noise of 1 %: constant, offset and the machine's own deviations last. Over the draws of a campaign this
-    /// halves the errors of load speed and load torque.
     const DISTURBANCE: Disturbance = Self::RATING.hoisting(Self::RATE);
     /// At 1 kHz `Reduced` overrules the design, which chooses the exact step there, to show the cost.
     const OBSERVER: TwoMassDesign =
