@@ -132,7 +132,7 @@ mod schedule_test;
 mod units;
 mod vibration;
 
-pub use family::{Family, ScheduleOf, Scheduled};
+pub use family::{Family, HasLoadAndRope, ScheduleOf, Scheduled};
 pub use gain_source::GainSource;
 pub use governor::{
     HasBacklash, HasBarredSpeeds, HasDroop, HasInputShaper, HasLoadSharing, HasSequencer, HasSlew, HasTorqueCurve,

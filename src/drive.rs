@@ -41,7 +41,7 @@ mod composition;
 mod switch;
 
 pub use axis::MADE_UP;
-pub use composition::{Composition, ConfigOf, VibrationOf};
+pub use composition::{Composition, ConfigOf, GovernorConfigOf, ObserverConfigOf, VibrationOf};
 
 use crate::balancing::Balancer;
 use crate::fault::Faults;

@@ -2,7 +2,7 @@
 //!
 //! Each learner is a part of its own and costs nothing when it is left out. It changes a parameter only within a bound
 //! and only where two findings agree, and returns a [`Finding`]. Its result can be kept in the record of parameters.
-//! Data that it cannot use is left out.
+//! Data that it cannot use is left out. [`Learners`](crate::adaptive::Learners) are all of them in an adaptive drive.
 //!
 //! | learner | finds | from |
 //! |---|---|---|
@@ -13,7 +13,6 @@
 
 mod eccentricity;
 mod gear_loss;
-#[cfg(feature = "parameters")]
 mod record;
 mod run_up;
 mod steady;
@@ -21,8 +20,7 @@ mod torque_constant;
 
 pub use eccentricity::{Correction, EccentricityConfig, EccentricityObserver};
 pub use gear_loss::{GearLoss, GearLossConfig};
-#[cfg(feature = "parameters")]
-pub use record::Learnt;
+pub use record::{LearningBounds, Learnt};
 pub use run_up::{RunUp, RunUpConfig};
 pub use torque_constant::{TorqueCalibration, TorqueConstant, TorqueConstantConfig};
 

@@ -48,6 +48,7 @@
 //! | [`axis`] | a drive on a board: its trip, missed ticks, and what a board must have |
 //! | [`drive`] | a tick through all parts; [`sample`] its inputs and outputs, [`fault`] its flags |
 //! | [`observer`], [`fluctuation`], [`governor`], [`balancing`] | the parts; `()` is one that is not needed |
+//! | [`adaptive`] | a drive that follows load and rope and learns its machine |
 //! | [`scheduling`], [`learning`] | loads and ropes that change; losses and errors found while the machine works |
 //! | [`fatigue`] | cycles of the shaft torque and their damage |
 //! | [`commissioning`] | a test that identifies the machine |
@@ -93,6 +94,7 @@
 #[macro_use]
 mod sentences;
 
+pub mod adaptive;
 pub mod angle;
 pub mod axis;
 pub mod balancing;
@@ -123,6 +125,11 @@ pub mod wheel;
 #[cfg(doctest)]
 #[doc = include_str!("../doc/first-drive.md")]
 mod first_drive_on_a_board {}
+
+/// The listing of the hoist.
+#[cfg(doctest)]
+#[doc = include_str!("../doc/hoist.md")]
+mod hoist {}
 
 /// The listings of the README.
 #[cfg(doctest)]

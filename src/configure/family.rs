@@ -7,7 +7,8 @@ use crate::drive::{Composition, Drive};
 use crate::fluctuation::Fluctuation;
 use crate::governor::{DampingLag, DampingLagConfig, Governor, LoopFilter, SetpointLag, SpeedLoop, SpeedLoopConfig};
 use crate::learning::{Correction, EccentricityObserver};
-use crate::machine::TwoMass;
+use crate::machine::{Length, Mass, Match, TwoMass};
+use crate::math::{exp, ln};
 use crate::number::{Fixed, Interpolate, Number, Part, StateOf};
 use crate::observer::{
     GearedConfig, GearedObserver, Observer, SemiImplicitConfig, SemiImplicitObserver, TwoMassConfig, TwoMassObserver,
@@ -121,6 +122,75 @@ pub trait Family<const A: usize, const B: usize>: Machine {
         }
         loops
     };
+}
+
+/// A hoist: a machine whose load and rope change. It is a [`Family`] by the inverse of both.
+///
+/// [`Machine::CHAIN`] ends in a rope and a lifted mass; the other members are [`Chain::hoisting`](crate::machine::Chain::hoisting).
+pub trait HasLoadAndRope<const A: usize, const B: usize>: Machine {
+    /// The least and the largest load, such as the empty hook and a tenth over the largest.
+    const LOAD: [Mass; 2];
+    /// The shortest and the longest rope.
+    const ROPE: [Length; 2];
+    /// Length of the rope whose stiffness is that in [`Machine::CHAIN`].
+    const ROPE_OF_CHAIN: Length;
+    /// Loads at the points (kg), falling: in equal ratios.
+    const LOADS: [f64; A] = falling(Self::LOAD[0].0, Self::LOAD[1].0);
+    /// Lengths at the points (m), falling: in equal ratios.
+    const ROPES: [f64; B] = falling(Self::ROPE[0].0, Self::ROPE[1].0);
+    /// As [`Family::SCHEDULED_DISTURBANCE`]: [`Rating::hoisting_on_schedule`](super::Rating::hoisting_on_schedule).
+    const HOISTING_DISTURBANCE: Disturbance = Self::RATING.hoisting_on_schedule(Self::RATE);
+    /// As [`Family::DAMPING`]: a quarter. Three hoists of 5 to 12 t have their margins up to 0.29 to 0.98.
+    const SWING_DAMPING: [[f64; B]; A] = [[0.25; B]; A];
+}
+
+impl<M: HasLoadAndRope<A, B>, const A: usize, const B: usize> Family<A, B> for M {
+    const FIRST: [f64; A] = inverse(Self::LOADS, 1e3);
+    const SECOND: [f64; B] = inverse(Self::ROPES, 1.0);
+    const SCHEDULED_DISTURBANCE: Disturbance = Self::HOISTING_DISTURBANCE;
+    const DAMPING: [[f64; B]; A] = Self::SWING_DAMPING;
+    const MEMBERS: [[TwoMass; B]; A] = {
+        let mut members = [[Self::TWO_MASS; B]; A];
+        let mut i = 0;
+        while i < A {
+            let mut j = 0;
+            while j < B {
+                let (load, rope) = (Mass(Self::LOADS[i]), Length(Self::ROPES[j]));
+                let chain = Self::CHAIN.hoisting(load, rope, Self::ROPE_OF_CHAIN);
+                members[i][j] = chain.reduce(Match::ResonanceAntiresonance);
+                j += 1;
+            }
+            i += 1;
+        }
+        members
+    };
+}
+
+/// A number over each value.
+const fn inverse<const K: usize>(values: [f64; K], over: f64) -> [f64; K] {
+    let mut inverse = [0.0; K];
+    let mut k = 0;
+    while k < K {
+        inverse[k] = over / values[k];
+        k += 1;
+    }
+    inverse
+}
+
+/// Values in equal ratios from the largest to the least.
+const fn falling<const K: usize>(least: f64, most: f64) -> [f64; K] {
+    assert!(
+        K >= 2 && least > 0.0 && most > least && most.is_finite(),
+        "loads and ropes of a gain schedule lie between two values that rise from above zero, at two points or more"
+    );
+    let ratio = exp(ln(least / most) / (K - 1) as f64);
+    let mut values = [most; K];
+    let mut k = 1;
+    while k < K {
+        values[k] = if k == K - 1 { least } else { values[k - 1] * ratio };
+        k += 1;
+    }
+    values
 }
 
 /// The gains for a member.

@@ -15,7 +15,7 @@
 
 use super::observer::transition;
 use super::tuning::{Disturbance, Encoder, Rate, Variances};
-use super::{Error, ExactStep, Matrix, eigenvalues};
+use super::{Error, ExactStep, Matrix, TwoMassDesign, eigenvalues};
 use crate::machine::TwoMass;
 use crate::math::{exp, exp_m1, hypot, ln, sin_cos, sqrt};
 
@@ -34,6 +34,20 @@ pub struct PlacedObserver {
     pub gains: [f64; 5],
     /// Poles of the estimate's error, real and imaginary part, each less one.
     pub poles: [(f64, f64); 5],
+}
+
+impl PlacedObserver {
+    /// The gains of a Kalman filter, without its covariances.
+    #[must_use]
+    pub const fn of(observer: &TwoMassDesign) -> Self {
+        let TwoMassDesign { period, machine, step, gains, mut poles, .. } = *observer;
+        let mut k = 0;
+        while k < 5 {
+            poles[k].0 -= 1.0;
+            k += 1;
+        }
+        PlacedObserver { period, machine, step, gains, poles }
+    }
 }
 
 impl TwoMass {

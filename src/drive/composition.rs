@@ -46,6 +46,12 @@ pub trait Composition: Sized {
     fn engage(&mut self, config: &Self::Config);
     /// As [`Drive::switch`].
     fn switch(&mut self, from: &Self::Config, to: &Self::Config);
+    /// The constants of its observer and of its governor.
+    fn parts(config: &mut Self::Config) -> (&mut ObserverConfigOf<Self>, &mut GovernorConfigOf<Self>);
+    /// As [`Drive::observer`].
+    fn observer(&self) -> &Self::Observer;
+    /// As [`Drive::observer_mut`].
+    fn observer_mut(&mut self) -> &mut Self::Observer;
     /// As [`Drive::vibration`].
     fn vibration(&mut self, config: &Self::Config, vibration: &VibrationOf<Self>);
     /// As [`Drive::vibration_missing`].
@@ -60,6 +66,12 @@ pub trait Composition: Sized {
 
 /// The constants of a drive, from its type.
 pub type ConfigOf<D> = <D as Composition>::Config;
+
+/// The constants of a drive's observer, from the type of the drive.
+pub type ObserverConfigOf<D> = <<D as Composition>::Observer as Observer<<D as Composition>::Number>>::Config;
+
+/// The constants of a drive's governor, from the type of the drive.
+pub type GovernorConfigOf<D> = <<D as Composition>::Governor as Governor<<D as Composition>::Number>>::Config;
 
 /// The samples of the vibration in a tick, from the type of the drive.
 pub type VibrationOf<D> = <<D as Composition>::Balancer as Balancer<<D as Composition>::Number>>::Vibration;
@@ -123,6 +135,18 @@ where
     #[inline(always)]
     fn switch(&mut self, from: &Self::Config, to: &Self::Config) {
         Drive::switch(self, from, to);
+    }
+
+    fn parts(config: &mut Self::Config) -> (&mut ObserverConfigOf<Self>, &mut GovernorConfigOf<Self>) {
+        (&mut config.observer, &mut config.governor)
+    }
+
+    fn observer(&self) -> &Self::Observer {
+        Drive::observer(self)
+    }
+
+    fn observer_mut(&mut self) -> &mut Self::Observer {
+        Drive::observer_mut(self)
     }
 
     #[inline(always)]

@@ -63,13 +63,7 @@ impl EccentricityConfig {
     /// At compile time in a constant, for a bound that is not positive or beyond a tenth of a radian, or a time of less
     /// than a hundred ticks.
     pub const fn new(observer: &TwoMassDesign, bound: f64, time: f64) -> Self {
-        let TwoMassDesign { period, machine, step, gains, mut poles, .. } = *observer;
-        let mut k = 0;
-        while k < 5 {
-            poles[k].0 -= 1.0;
-            k += 1;
-        }
-        Self::of_placed(&PlacedObserver { period, machine, step, gains, poles }, bound, time)
+        Self::of_placed(&PlacedObserver::of(observer), bound, time)
     }
 
     /// As [`new`](Self::new), for a point of a gain schedule.

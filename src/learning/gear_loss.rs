@@ -104,12 +104,18 @@ impl GearLoss {
 
     /// Takes the motor's reported torque (N m) and speed (rad/s), between the ticks at a steady rate.
     pub fn update(&mut self, config: &GearLossConfig, torque: f32, speed: f32) -> Finding {
+        self.update_after(config, 1.0, torque, speed)
+    }
+
+    /// [`update`](Self::update), so many times its interval after the last one. Windows need an update every tenth of
+    /// their length.
+    pub fn update_after(&mut self, config: &GearLossConfig, elapsed: f32, torque: f32, speed: f32) -> Finding {
         if !(torque.is_finite() && speed.is_finite()) {
             self.interrupt();
             return Finding::None;
         }
-        self.pairs.age(config.pause);
-        let Some(steady) = self.window.update(config.window, config.least_speed, torque, speed) else {
+        self.pairs.age(config.pause, elapsed);
+        let Some(steady) = self.window.update(config.window, config.least_speed, elapsed, torque, speed) else {
             return Finding::None;
         };
         if steady.drift > STEADY_TORQUE * steady.torque.abs() || steady.torque.abs() < config.least_torque {

@@ -84,7 +84,7 @@ pub struct RunUp {
     last: Option<Steady>,
     /// Since the last window: sum of the torques and their number.
     sum: f32,
-    count: u32,
+    count: f32,
     /// A finding, and whether the motor accelerated.
     unconfirmed: Option<(f32, bool)>,
     /// Pairs of findings in the mean.
@@ -100,7 +100,7 @@ impl RunUp {
             window: Window::default(),
             last: None,
             sum: 0.0,
-            count: 0,
+            count: 0.0,
             unconfirmed: None,
             findings: 0,
         }
@@ -129,17 +129,23 @@ impl RunUp {
 
     /// Takes the motor's torque (N m) and speed (rad/s), between the ticks at a steady rate.
     pub fn update(&mut self, config: &RunUpConfig, torque: f32, speed: f32) -> Finding {
+        self.update_after(config, 1.0, torque, speed)
+    }
+
+    /// [`update`](Self::update), so many times its interval after the last one. Windows need an update every tenth of
+    /// their length.
+    pub fn update_after(&mut self, config: &RunUpConfig, elapsed: f32, torque: f32, speed: f32) -> Finding {
         if !(torque.is_finite() && speed.is_finite()) {
             self.interrupt();
             return Finding::None;
         }
-        self.sum += torque;
-        self.count = self.count.saturating_add(1);
-        let Some(now) = self.window.update(config.window, config.least_speed, torque, speed) else {
+        self.sum += torque * elapsed;
+        self.count += elapsed;
+        let Some(now) = self.window.update(config.window, config.least_speed, elapsed, torque, speed) else {
             return Finding::None;
         };
         let (sum, count) = (self.sum, self.count);
-        (self.sum, self.count) = (0.0, 0);
+        (self.sum, self.count) = (0.0, 0.0);
         let last = self.last.take();
         if now.drift > STEADY_TORQUE * config.torque {
             return Finding::None;
@@ -147,7 +153,7 @@ impl RunUp {
         self.last = Some(now);
         let Some(last) = last else { return Finding::None };
         let change = now.end - last.end;
-        if count > config.pause || last.speed * now.speed <= 0.0 || change.abs() < config.least_change {
+        if count > config.pause as f32 || last.speed * now.speed <= 0.0 || change.abs() < config.least_change {
             return Finding::None;
         }
         if (now.torque - last.torque).abs() > SAME_TORQUE * config.torque {
@@ -156,7 +162,7 @@ impl RunUp {
             return Finding::Rejected;
         }
         // the windows' own torque and change of the speed, for as long as this motion
-        let windows = count as f32 / (2 * config.window) as f32;
+        let windows = count / (2 * config.window) as f32;
         let steady = (now.torque + last.torque) * windows * config.window as f32;
         let beyond = change - (now.change + last.change) * windows;
         self.confirm(config, (sum - steady) * config.every / beyond, change * now.speed > 0.0)

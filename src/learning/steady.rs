@@ -25,7 +25,8 @@ pub(super) struct Steady {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Window {
-    count: u32,
+    /// Updates so far, and those of the first half.
+    counts: [f32; 2],
     /// That the others are compared with.
     speed: f32,
     /// At the beginning.
@@ -35,25 +36,34 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Takes a torque (N m) and a speed (rad/s), both finite; the window that they complete.
-    pub fn update(&mut self, length: u32, least_speed: f32, torque: f32, speed: f32) -> Option<Steady> {
+    /// Takes a torque (N m) and a speed (rad/s), both finite, which stand for so many updates; the window that they
+    /// complete. One that stands for a tenth of a window or more is no sample of it.
+    pub fn update(&mut self, length: u32, least_speed: f32, elapsed: f32, torque: f32, speed: f32) -> Option<Steady> {
         let changed = (speed - self.speed).abs() > STEADY_SPEED * self.speed.abs();
-        if changed || speed.abs() < least_speed {
+        if changed || speed.abs() < least_speed || !(10.0 * elapsed <= length as f32) {
             *self = Window { speed, ..Window::default() };
             return None;
         }
-        if self.count == 0 {
+        let [count, first_half] = self.counts;
+        if count == 0.0 {
             self.first = speed;
         }
-        let half = length / 2;
+        let half = (length / 2) as f32;
         let [first, second] = &mut self.sums;
-        *(if self.count < half { first } else { second }) += torque;
-        self.count += 1;
-        if self.count < 2 * half {
+        let now = count + elapsed;
+        if count < half {
+            *first += torque * elapsed;
+            self.counts = [now, now];
+        } else {
+            *second += torque * elapsed;
+            self.counts = [now, first_half];
+        }
+        if now < 2.0 * half {
             return None;
         }
-        let [first, second] = self.sums.map(|sum| sum / half as f32);
-        (self.count, self.sums) = (0, [0.0; 2]);
+        let [first, second] = self.sums;
+        let (first, second) = (first / first_half, second / (now - first_half));
+        (self.counts, self.sums) = ([0.0; 2], [0.0; 2]);
         Some(Steady {
             speed: self.speed,
             end: speed,
@@ -70,14 +80,14 @@ impl Window {
 pub(super) struct Pairs {
     last: Option<Steady>,
     /// Updates since.
-    age: u32,
+    age: f32,
 }
 
 impl Pairs {
-    /// An update has passed: a window older than the pause has no partner.
-    pub fn age(&mut self, pause: u32) {
-        self.age = self.age.saturating_add(1);
-        if self.age > pause {
+    /// So many updates have passed: a window older than the pause has no partner.
+    pub fn age(&mut self, pause: u32, elapsed: f32) {
+        self.age += elapsed;
+        if self.age > pause as f32 {
             self.last = None;
         }
     }
@@ -91,7 +101,7 @@ impl Pairs {
                 ((last.speed + now.speed).abs() <= SAME_SPEED * last.speed.abs()).then_some([last, now])
             }
             _ => {
-                (self.last, self.age) = (Some(now), 0);
+                (self.last, self.age) = (Some(now), 0.0);
                 None
             }
         }

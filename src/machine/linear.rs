@@ -68,6 +68,36 @@ impl Chain {
         chain
     }
 
+    /// Mass of the lifted loads (kg), from their weight; zero without one.
+    #[must_use]
+    pub const fn lifted_mass(&self) -> f64 {
+        if self.gravity[0] > 0.0 { self.gravity[0] / (STANDARD_GRAVITY * self.travel) } else { 0.0 }
+    }
+
+    /// The same hoist with another load, on another length of its rope: the lifted mass and the stiffness of the last
+    /// shaft are replaced, this in proportion to the inverse of the length; the rope's damping stays. A shaft in series
+    /// with the rope counts as rope.
+    ///
+    /// Refused: [`Error::LoadMass`] also for a chain that lifts nothing, [`Error::RopeStiffness`] for a length that is
+    /// not positive.
+    #[must_use]
+    pub const fn hoisting(mut self, load: Mass, rope: Length, rope_of_chain: Length) -> Self {
+        let lifted = self.lifted_mass();
+        if !positive(lifted) || !positive(load.0) || self.count < 2 {
+            return self.refuse(Error::LoadMass);
+        }
+        let share = rope_of_chain.0 / rope.0;
+        if !positive(rope.0) || !positive(share) {
+            return self.refuse(Error::RopeStiffness);
+        }
+        let last = self.count - 1;
+        self.inertia[last] += self.at_motor(load.0) - self.at_motor(lifted);
+        self.shaft[last - 1].stiffness *= share;
+        let weights = load.0 / lifted;
+        self.gravity = [self.gravity[0] * weights, self.gravity[1] * weights, self.gravity[2] * weights];
+        self
+    }
+
     /// A mass (kg) that the drive moves on the level: inertia only.
     ///
     /// Refused: [`Error::LoadMass`], [`Error::DrumMissing`].

@@ -77,7 +77,7 @@ impl<N: Number> GearFriction<N> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct GearedObserver<O> {
-    observer: O,
+    pub(crate) observer: O,
 }
 
 impl<N, O: Part<N>> Part<N> for GearedObserver<O> {

@@ -33,7 +33,7 @@ pub struct LoadGearConfig<N: Stiction, C> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadGearObserver<O> {
-    observer: O,
+    pub(crate) observer: O,
 }
 
 impl<N, O: Part<N>> Part<N> for LoadGearObserver<O> {

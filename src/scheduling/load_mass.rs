@@ -54,10 +54,15 @@ impl LoadMass {
 
     /// Takes an estimated load torque (N m); a value that is not finite is left out.
     pub fn update(&mut self, config: &LoadMassConfig, load_torque: f32) -> f32 {
+        self.update_after(config, 1.0, load_torque)
+    }
+
+    /// [`update`](Self::update), so many times its interval after the last one.
+    pub fn update_after(&mut self, config: &LoadMassConfig, elapsed: f32, load_torque: f32) -> f32 {
         let [least, most] = config.range;
         let found = load_torque * config.per_torque;
         if found.is_finite() {
-            self.mass += config.share * (found.max(least).min(most) - self.mass);
+            self.mass += (config.share * elapsed).min(1.0) * (found.max(least).min(most) - self.mass);
         }
         self.mass
     }

@@ -30,6 +30,13 @@ pub struct Gear {
 }
 
 impl Gear {
+    /// Friction per torque, (1 - eta^2)/(1 + eta^2).
+    #[must_use]
+    pub const fn friction(&self) -> f64 {
+        let square = self.efficiency * self.efficiency;
+        (1.0 - square) / (1.0 + square)
+    }
+
     /// Whether fixed point, whose stiction gain follows from its bases, brings the gear to rest in ticks of this period
     /// (s).
     ///
@@ -53,8 +60,7 @@ impl Gear {
         if !(deadband >= 0.0 && deadband < INNOVATION_RANGE) {
             return Err(Error::Value(PLAY));
         }
-        let square = eta * eta;
-        let friction = [(1.0 - square) / (1.0 + square), 1.0 - 2.0 * eta / (1.0 + square)];
+        let friction = [self.friction(), 1.0 - 2.0 * eta / (1.0 + eta * eta)];
         Ok((friction, stiction_gain, deadband))
     }
 }

@@ -17,12 +17,6 @@ const TWIST: &str = "the base of the twist is too large for the exact step: take
 const COARSE: &str = "the semi-implicit step is too coarse for this machine at this rate: take TwoMassObserver, which \
     has the exact step the design chose, or overrule the design by with_step(StepChoice::SemiImplicit)";
 
-/// A design as the constants take it, without its poles.
-const fn gains(design: &TwoMassDesign) -> PlacedObserver {
-    let TwoMassDesign { period, machine, step, gains, .. } = *design;
-    PlacedObserver { period, machine, step, gains, poles: [(0.0, 0.0); 5] }
-}
-
 /// The exact observer's constants, scaled to a format.
 const fn two_mass(design: &PlacedObserver, format: &Format) -> TwoMassConfig<f64> {
     let machine = &design.machine;
@@ -104,7 +98,7 @@ const fn rigid(design: &RigidDesign, load_share: f64, format: &Format) -> RigidC
 constants! {
     /// [`Error::Coefficient`] where one is beyond the range of its number.
     impl[] TwoMassConfig[], new, try_new(design: &TwoMassDesign), |format| {
-        Self::try_of_placed(&gains(design), format.bases)
+        Self::try_of_placed(&PlacedObserver::of(design), format.bases)
     }
 }
 
@@ -140,7 +134,7 @@ constants! {
         if matches!(design.chosen, StepChoice::Exact) {
             return Err(Error::Value(COARSE));
         }
-        Self::try_of_placed(&gains(design), format.bases)
+        Self::try_of_placed(&PlacedObserver::of(design), format.bases)
     }
 }
 

@@ -2,9 +2,10 @@
 //!
 //! For the host, which compares it with the measured errors. No image contains it: the tick does not use it.
 
+use driveline::adaptive::Adaptive;
 use driveline::configure::Machine;
 use driveline::design::TwoMassDesign;
-use driveline::drive::Drive;
+use driveline::drive::{Composition, Drive};
 use driveline::learning::EccentricityObserver;
 use driveline::machine;
 use driveline::number::Part;
@@ -50,6 +51,18 @@ where
 {
     fn expected() -> Option<Expected> {
         O::expected()
+    }
+}
+
+/// As the drive inside.
+impl<M, D, S, L> Expects<M> for Adaptive<M, D, S, L>
+where
+    D: Composition + Expects<M>,
+    S: Part<D::Number>,
+    L: Part<D::Number>,
+{
+    fn expected() -> Option<Expected> {
+        D::expected()
     }
 }
 

@@ -16,7 +16,7 @@ use crate::scene::composed::Governed;
 use crate::scene::table::variants;
 
 pub use learnt::{Learnt, panel};
-pub use machine::{CutAtRope, Hoist, TRAVEL, chain};
+pub use machine::{CutAtRope, Hoist, TRAVEL};
 
 /// The design chooses the cheap step from 4 kHz on; a change that makes it too coarse stops here.
 const _: () = {

@@ -1,12 +1,12 @@
 //! The hoist's machine, and its family over load and rope.
 
-use driveline::configure::{Family, Machine, Rating};
+use driveline::configure::{HasLoadAndRope, Machine, Rating};
 use driveline::design::{
     Disturbance, Encoder, SpeedLoopDesign, SpeedLoopTuning, Spread, StepChoice, Tolerance, TwoMassDesign,
 };
 use driveline::machine::{
-    Chain, Damping, Diameter, Efficiency, Falls, Inertia, LinearDamping, Mass, Match, Ratio, Speed, Stiffness, Torque,
-    TwoMass,
+    Chain, Damping, Diameter, Efficiency, Falls, Inertia, Length, LinearDamping, Mass, Match, Ratio, Speed, Stiffness,
+    Torque, TwoMass,
 };
 use driveline::settings::{Bases, Gear, Screening};
 
@@ -17,87 +17,40 @@ use driveline::settings::{Bases, Gear, Screening};
 /// counts of the encoder: the play is eight.
 pub struct Hoist<const RATE_HZ: u32>;
 
-/// The hoist with a load of `mass` (kg) on a rope of `length` (m), whose stiffness above is that of 12 m.
-pub const fn chain(mass: f64, length: f64) -> Chain {
-    Chain::motor(Inertia(0.62))
-        .shaft(Stiffness(5.0e4), Damping(2.0))
-        .rotor(Inertia(0.08))
-        .gear(Ratio(31.5), Efficiency(0.94))
-        .drum(Diameter(0.8))
-        .damped_rope(Falls(2), Stiffness(2.9e6 * (12.0 / length)), LinearDamping(3.6e3))
-        .lifted(Mass(mass))
-}
-
 /// Travel of the load per angle of the motor (m/rad): half the drum's diameter, two falls, the gear.
 pub const TRAVEL: f64 = 0.8 / 2.0 / 2.0 / 31.5;
 
-/// Loads at the points of the gain schedule (kg): from an empty hook to a tenth over the largest load.
-const MASSES: [f64; 5] = [13_000.0, 6_000.0, 2_700.0, 1_200.0, 500.0];
-
-/// Lengths of rope at its points (m).
-const LENGTHS: [f64; 4] = [30.0, 17.0, 9.0, 5.0];
-
-/// By loads per tonne, inverse, and by the inverse of the rope's length (1/m).
-impl<const RATE_HZ: u32> Family<5, 4> for Hoist<RATE_HZ> {
-    const FIRST: [f64; 5] = inverse(MASSES, 1e3);
-    const SECOND: [f64; 4] = inverse(LENGTHS, 1.0);
-    /// A third of the scene's: on the schedule a load of 12 t that is half as heavy again within a second is followed
-    /// as well, and the noise in a steady load is halved.
-    ///
-    /// With what the learners find the torque is more accurate, and the active damping needs an observer that follows
-    /// the twist sooner.
-    const SCHEDULED_DISTURBANCE: Disturbance =
-        Disturbance { load_torque_step: 90.0, ..Self::DISTURBANCE }.torque_over(22.5, 1e-4, Self::RATE);
+/// From an empty hook to a tenth over the largest load.
+impl<const RATE_HZ: u32> HasLoadAndRope<5, 4> for Hoist<RATE_HZ> {
+    const LOAD: [Mass; 2] = [Mass(500.0), Mass(13_000.0)];
+    const ROPE: [Length; 2] = [Length(5.0), Length(30.0)];
+    const ROPE_OF_CHAIN: Length = Length(12.0);
+    const LOADS: [f64; 5] = [13_000.0, 6_000.0, 2_700.0, 1_200.0, 500.0];
+    const ROPES: [f64; 4] = [30.0, 17.0, 9.0, 5.0];
     /// Within 6 dB and 30 degrees at each point, so that a swing decays 1.3 times as fast as under a plain loop: the
     /// least for the heaviest load on the longest rope.
-    const DAMPING: [[f64; 4]; 5] = [
+    const SWING_DAMPING: [[f64; 4]; 5] = [
         [0.26, 0.29, 0.35, 0.39],
         [0.29, 0.35, 0.45, 0.59],
         [0.35, 0.45, 0.59, 0.65],
         [0.45, 0.59, 0.65, 0.65],
         [0.65, 0.65, 0.65, 0.65],
     ];
-    const MEMBERS: [[TwoMass; 4]; 5] = {
-        let mut members = [[Self::TWO_MASS; 4]; 5];
-        let mut i = 0;
-        while i < 5 {
-            let mut j = 0;
-            while j < 4 {
-                members[i][j] = chain(MASSES[i], LENGTHS[j]).reduce(Match::ResonanceAntiresonance);
-                j += 1;
-            }
-            i += 1;
-        }
-        members
-    };
-}
-
-/// A number over each value.
-const fn inverse<const K: usize>(values: [f64; K], over: f64) -> [f64; K] {
-    let mut inverse = [0.0; K];
-    let mut k = 0;
-    while k < K {
-        inverse[k] = over / values[k];
-        k += 1;
-    }
-    inverse
 }
 
 impl<const RATE_HZ: u32> Machine for Hoist<RATE_HZ> {
-    const CHAIN: Chain = chain(12_000.0, 12.0);
+    const CHAIN: Chain = Chain::motor(Inertia(0.62))
+        .shaft(Stiffness(5.0e4), Damping(2.0))
+        .rotor(Inertia(0.08))
+        .gear(Ratio(31.5), Efficiency(0.94))
+        .drum(Diameter(0.8))
+        .damped_rope(Falls(2), Stiffness(2.9e6), LinearDamping(3.6e3))
+        .lifted(Mass(12_000.0));
     /// 1480 r/min.
     const RATING: Rating = Rating { torque: Torque(750.0), speed: Speed(155.0), torque_limit: Torque(1_350.0) };
     const ENCODER: Encoder = Encoder::lines(2048);
     const RATE_HZ: u32 = RATE_HZ;
-    /// The load may wander by 300 N m, two fifths of a load, in 50 s. The torque counts as less accurate in a tick than
-    /// its noise of 1 %: constant, offset and the machine's own deviations last. Over the draws of a campaign this
-    /// halves the errors of load speed and load torque.
-    const DISTURBANCE: Disturbance =
-        Disturbance { load_torque_step: 300.0, within: 50.0, ..Self::RATING.disturbance() }.torque_over(
-            60.0,
-            1e-4,
-            Self::RATE,
-        );
+    const DISTURBANCE: Disturbance = Self::RATING.hoisting(Self::RATE);
     /// At 1 kHz `Reduced` overrules the design, which chooses the exact step there, to show the cost.
     const OBSERVER: TwoMassDesign =
         Self::TWO_MASS.observer(Self::RATE, Self::ENCODER, Self::DISTURBANCE).with_step(StepChoice::SemiImplicit);
