@@ -124,6 +124,11 @@ pub mod wheel;
 #[doc = include_str!("../doc/first-drive.md")]
 mod first_drive_on_a_board {}
 
+/// The listing of the rotor that balances itself.
+#[cfg(all(doctest, feature = "balancing"))]
+#[doc = include_str!("../doc/self-balancing.md")]
+mod self_balancing {}
+
 /// The listings of the README.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
