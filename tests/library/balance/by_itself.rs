@@ -260,13 +260,13 @@ fn start(kind: Kind, seed: u64) -> Outcome {
             let motion = rotor.tick(at, wheel, angle, speed);
             drive.tick(&CONFIG, &Sample { angle: counted(angle), torque: 0.0, setpoint: mean as f32 });
             drive.vibration(&CONFIG, &motion.map(|value| (value + deviation * noise.normal()) as f32));
-            if tick % 8 == 0 {
+            if tick.is_multiple_of(8) {
                 let state = task.run(&mut drive, &CONFIG).unwrap();
                 wrong |= matches!(state, BalancingState::Held(Some(verdict)) if verdict.passed)
                     && (at + wheel).norm() > 1.1 * G2_5
-                    && tick % 4000 == 0;
+                    && tick.is_multiple_of(4000);
             }
-            if tick % 40 == 0 {
+            if tick.is_multiple_of(40) {
                 let rest = rest.map(|rest| rotor.level(rest, wheel, mean)).into_iter().fold(0.0, f64::max);
                 peak = peak.max(rotor.level(at, wheel, mean) / rest);
             }
