@@ -15,8 +15,9 @@
 //! balancing machine. [`Holes`] splits a weight between holes and stock weights, [`Tolerance`] grades the residual
 //! unbalance (ISO 21940-11), [`from_amplitudes`] needs no phase. [`Procedure`] leads through the runs, rejects
 //! impossible entries, and resumes after a power cut from a record; with the feature `parameters` the record is kept in
-//! flash. [`InRun`] does without trial runs, by a balancing head or an actuator while the machine turns. Take
-//! [`Procedure`] for weights that are fitted by hand between runs, [`InRun`] where such a device moves them.
+//! flash. [`BalancingTask`] does without trial runs, by a [`BalancingHead`] while the machine turns, and by itself;
+//! [`InRun`] is its rule for the moves. Take [`Procedure`] for weights that are fitted by hand between runs,
+//! [`BalancingTask`] where such a device moves them.
 //!
 //! # Terms
 //! - **phasor**: amplitude and phase of the vibration at the rotor's order: `v = Re(X e^{i order theta})`, `theta` the
@@ -43,6 +44,8 @@ mod entry;
 #[cfg(feature = "balancing")]
 mod error;
 #[cfg(feature = "balancing")]
+mod head;
+#[cfg(feature = "balancing")]
 mod holes;
 #[cfg(feature = "balancing")]
 mod in_run;
@@ -50,6 +53,8 @@ mod in_run;
 mod influence;
 #[cfg(feature = "balancing")]
 mod matrix;
+#[cfg(feature = "balancing")]
+mod memory;
 #[cfg(feature = "balancing")]
 mod min_max;
 #[cfg(feature = "balancing")]
@@ -68,6 +73,8 @@ mod rigid;
 mod scalar;
 mod sensor;
 #[cfg(feature = "balancing")]
+mod task;
+#[cfg(feature = "balancing")]
 mod tolerance;
 
 #[cfg(feature = "balancing")]
@@ -81,11 +88,15 @@ pub use entry::{Entry, degrees};
 #[cfg(feature = "balancing")]
 pub use error::Error;
 #[cfg(feature = "balancing")]
+pub use head::{BalancingHead, HeadPosition};
+#[cfg(feature = "balancing")]
 pub use holes::{CorrectionMethod, Fitted, Holes};
 #[cfg(feature = "balancing")]
-pub use in_run::{AbortReason, Action, InRun, InRunConfig};
+pub use in_run::{AbortReason, Action, BalancingRecord, InRun, InRunConfig};
 #[cfg(feature = "balancing")]
 pub use influence::Influence;
+#[cfg(feature = "balancing")]
+pub use memory::BalancingMemory;
 pub use phasor::Phasors;
 #[cfg(feature = "balancing")]
 pub use procedure::{CORRECTIONS, Plan, Procedure, ProcedureStep, Run};
@@ -97,6 +108,8 @@ pub use rigid::{RigidUnbalance, UnbalanceParts, one_plane_suffices};
 #[cfg(feature = "balancing")]
 pub use scalar::{Complex, Scalar};
 pub use sensor::{Motion, Sensor, SensorError};
+#[cfg(feature = "balancing")]
+pub use task::{BalancingDesign, BalancingDesignError, BalancingFault, BalancingState, BalancingTask, Look};
 #[cfg(feature = "balancing")]
 pub use tolerance::{GRADES, Tolerance, Verdict, resultant, two_planes};
 

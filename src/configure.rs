@@ -143,7 +143,7 @@ pub use machine::{Machine, Rating};
 pub use observer::HasCrank;
 pub use schedule_test::{RefusedPoint, ScheduleTest, test_schedule};
 pub use units::Units;
-pub use vibration::HasVibration;
+pub use vibration::{HasVibration, VibrationNumber};
 
 use crate::balancing::Balancer;
 use crate::drive::{Config, ConfigOf, Drive, Limits};

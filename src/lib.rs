@@ -131,6 +131,11 @@ mod first_drive_on_a_board {}
 #[doc = include_str!("../doc/hoist.md")]
 mod hoist {}
 
+/// The listing of the rotor that balances itself.
+#[cfg(all(doctest, feature = "balancing"))]
+#[doc = include_str!("../doc/self-balancing.md")]
+mod self_balancing {}
+
 /// The listings of the README.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -16,6 +16,7 @@
 //! | [`EnableChain`], [`TripLine`] | `OutputPin` | enabling the power stage, tripping the contactor |
 //! | [`Adxl355`] | `SpiDevice` | vibration, digital |
 //! | [`AdcVibration`] | a slice of conversions | vibration, analog |
+//! | `TwoMassHead`, by the feature `balancing` | two `SetDutyCycle` | a balancing head |
 //! | [`AwaitedAngle`], [`AwaitedTorque`] | values awaited between two ticks | the four on `SpiDevice` under `embedded-hal-async` |
 //!
 //! A toothed wheel and the count of missed ticks take times alone: they are
@@ -96,6 +97,8 @@
 mod adc;
 mod adxl355;
 mod awaited;
+#[cfg(feature = "balancing")]
+mod balancing_head;
 mod dac;
 mod enable;
 mod magnetic;
@@ -109,6 +112,8 @@ mod tmc4671;
 pub use adc::AdcVibration;
 pub use adxl355::{Adxl355, Along, Range};
 pub use awaited::{AwaitedAngle, AwaitedTorque};
+#[cfg(feature = "balancing")]
+pub use balancing_head::TwoMassHead;
 pub use dac::{Dac, SpiDac};
 pub use enable::{EnableChain, EnableLine, TripLine};
 pub use magnetic::{Chip, MagneticEncoder};

@@ -3,8 +3,8 @@
 use crate::learning::{Correction, EccentricityConfig, EccentricityObserver};
 use crate::number::{Magnitude, Number};
 use crate::observer::{
-    GearFriction, GearedConfig, GearedObserver, LoadGearConfig, LoadGearObserver, SemiImplicitConfig, SemiImplicitObserver, Stiction,
-    TwoMassConfig, TwoMassObserver,
+    GearFriction, GearedConfig, GearedObserver, LoadGearConfig, LoadGearObserver, SemiImplicitConfig,
+    SemiImplicitObserver, Stiction, TwoMassConfig, TwoMassObserver,
 };
 
 /// Constants of an observer that learners change.

@@ -24,12 +24,15 @@
 use core::fmt;
 
 mod estimate;
+mod remembered;
 
 use super::error::Error;
 use super::influence::Influence;
 use super::matrix::{pick, put};
 use super::scalar::{Complex, Scalar, real, size, zero};
 use estimate::{DEVIATIONS, Estimate, INFORMATIVE};
+
+pub use remembered::BalancingRecord;
 
 /// How far a machine may be moved while it runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -385,7 +388,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
     }
 
     /// The best weights, where they are better beyond doubt, or those that it began with.
-    fn home(&self) -> [Complex<T>; PLANES] {
+    pub fn home(&self) -> [Complex<T>; PLANES] {
         // what wanders by itself, of the readings as they were at first
         let still = |start: T| self.scatter * self.level <= start * real(RESTLESS);
         let better = self.start.is_some_and(|start| self.best.0 < start * real(BETTER) && still(start));

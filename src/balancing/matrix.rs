@@ -13,6 +13,14 @@ impl<T: Scalar, const ROWS: usize, const COLUMNS: usize> Matrix<T, ROWS, COLUMNS
         Matrix([[zero(); COLUMNS]; ROWS])
     }
 
+    pub(crate) fn of(rows: [[Complex<T>; COLUMNS]; ROWS]) -> Self {
+        Matrix(rows)
+    }
+
+    pub(crate) fn rows(&self) -> [[Complex<T>; COLUMNS]; ROWS] {
+        self.0
+    }
+
     pub(crate) fn at(&self, row: usize, column: usize) -> Complex<T> {
         self.0.get(row).and_then(|row| row.get(column)).copied().unwrap_or(zero())
     }

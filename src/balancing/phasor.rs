@@ -9,7 +9,7 @@
 //! The sums run on; at the end of each block of turns they are noted down. Divisions are left to [`Phasors::reading`].
 
 use super::reading::{Edge, Reading};
-use super::{Balancer, PhasorsConfig, ReadingFault};
+use super::{Balancer, PhasorsConfig, ReadingFault, Steadiness};
 use crate::angle::Passed;
 use crate::angle::{RotorAngle, Synchronous};
 use crate::fault::Faults;
@@ -151,6 +151,11 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<CHANNELS
         self.turning.angle(&config.turning)
     }
 
+    /// Ticks since the reading was begun, with those without a sound sample; runs on where it is complete.
+    pub fn ticks(&self) -> u32 {
+        self.ticks.wrapping_add(self.missing)
+    }
+
     /// Blocks measured so far, `EDGES - 1` of them when the reading is complete.
     pub fn blocks(&self) -> u32 {
         self.noted.saturating_sub(1)
@@ -167,6 +172,16 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<CHANNELS
     /// [`ReadingFault`]: why this reading cannot be used. The measurement goes on or stands;
     /// [`Phasors::begin`] begins another.
     pub fn reading(&self, config: &PhasorsConfig<N, CHANNELS>, channel: usize) -> Result<Reading, ReadingFault> {
+        self.reading_within(config, channel, &config.steadiness)
+    }
+
+    /// The same within other limits.
+    pub(crate) fn reading_within(
+        &self,
+        config: &PhasorsConfig<N, CHANNELS>,
+        channel: usize,
+        steadiness: &Steadiness,
+    ) -> Result<Reading, ReadingFault> {
         if self.back > 0 && !self.is_complete() {
             return Err(ReadingFault::Backwards { times: self.back });
         }
@@ -179,7 +194,7 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<CHANNELS
         if self.missing > 0 && !clipped {
             return Err(ReadingFault::Missing { samples: self.missing });
         }
-        reading.accept(clipped, &config.steadiness)
+        reading.accept(clipped, steadiness)
     }
 
     /// The same, whatever its quality: for a display, or to judge otherwise.

@@ -43,7 +43,7 @@ impl<T: Scalar, const PLANES: usize> Qr<T, PLANES> {
             if out == zero() {
                 continue;
             }
-            let radius = Complex { re: diagonal, im: size(out) }.modulus();
+            let radius = size(Complex { re: diagonal, im: size(out) });
             let (c, s) = (diagonal / radius, out.unscale(radius));
             let turned =
                 |above: Complex<T>, below: Complex<T>| (above.scale(c) + s.conj() * below, below.scale(c) - s * above);

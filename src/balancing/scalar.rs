@@ -1,6 +1,6 @@
 //! Real and complex numbers of the calculations off the tick.
 
-use nalgebra::{ComplexField, RealField};
+use nalgebra::RealField;
 
 /// `f32` or `f64`: the same functions on the controller and on the host.
 pub trait Scalar: RealField + Copy {
@@ -48,9 +48,17 @@ pub(crate) fn real<T: Scalar>(value: f64) -> T {
     nalgebra::convert(value)
 }
 
-/// Amplitude, without overflow on the way.
+/// Amplitude, without overflow on the way. That of `libm` in `f32` calculates in `f64`.
 pub(crate) fn size<T: Scalar>(z: Complex<T>) -> T {
-    z.modulus()
+    let (re, im) = (z.re.abs(), z.im.abs());
+    let (most, least) = if re < im { (im, re) } else { (re, im) };
+    if most > T::zero() {
+        let ratio = least / most;
+        most * (T::one() + ratio * ratio).sqrt()
+    } else {
+        // zero, or NaN
+        most + least
+    }
 }
 
 /// Square of the amplitude.

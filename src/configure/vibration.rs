@@ -1,6 +1,7 @@
 //! Measurements of a rotor's vibration for a machine.
 
 use super::{Configure, Machine};
+use crate::angle::Synchronous;
 use crate::balancing::{Phasors, PhasorsConfig};
 use crate::number::Fixed;
 use crate::settings::PhasorSettings;
@@ -16,6 +17,12 @@ pub trait HasVibration: Machine {
     const VIBRATION_BASE: f64 = 2.0 * Self::VIBRATION_LIMIT;
 }
 
+/// A number that vibration is measured in.
+pub trait VibrationNumber: Synchronous {
+    /// Vibration of one (unit of the sensors).
+    fn vibration_unit<M: HasVibration>() -> f32;
+}
+
 /// How a channel is measured whose samples are per unit of this base.
 const fn per_unit(mut measured: PhasorSettings, base: f64) -> PhasorSettings {
     measured.steadiness.floor = (measured.steadiness.floor as f64 / base) as f32;
@@ -24,6 +31,12 @@ const fn per_unit(mut measured: PhasorSettings, base: f64) -> PhasorSettings {
 
 macro_rules! phasors {
     ($number:ident, $base:expr) => {
+        impl VibrationNumber for $number {
+            fn vibration_unit<M: HasVibration>() -> f32 {
+                const { $base as f32 }
+            }
+        }
+
         impl<M: HasVibration, const CHANNELS: usize, const EDGES: usize> Configure<M, $number>
             for Phasors<CHANNELS, EDGES>
         {

@@ -1,5 +1,6 @@
 //! Balancing: phasors on the tick, influence coefficients off it, weights, the procedure, in-run, the command.
 
+mod by_itself;
 mod disturbed_rotors;
 mod holes;
 mod in_run;

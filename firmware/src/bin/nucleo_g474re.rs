@@ -154,6 +154,7 @@ fn main() -> ! {
     loop {
         TURNS.store(TURNS.load(Ordering::Relaxed).wrapping_add(1), Ordering::Relaxed);
         desk.serve();
+        desk.balance();
         desk.note_turn();
         if told >= DESCRIBED {
             told = 0;
@@ -218,6 +219,11 @@ impl Desk {
             }
             _ => self.panel.ask(<Selected as Constants>::CONFIG, &mut Interrupted, [key, value]),
         }
+    }
+
+    /// Balances by the head, where that is on.
+    fn balance(&mut self) {
+        self.panel.balance(<Selected as Constants>::CONFIG, &mut Interrupted);
     }
 
     /// Puts the fluctuation of a turn that was finished into the records.

@@ -3,15 +3,16 @@
 //! A tick may wait for a copy of its state, but not for the processing of it.
 
 use driveline::balancing::PhasorsConfig;
-use driveline::configure::HasVibration;
+use driveline::configure::VibrationNumber;
 use driveline::drive::ConfigOf;
 use driveline::fluctuation::{Extremes, Fluctuation, Interleaved, Ranked, Summed};
 use driveline::governor::Governor;
 use driveline::number::Part;
 use driveline::observer::Observer;
 
+use super::balancing_head::{HeadPanel, SelfBalanced};
 use super::fluctuation::{FluctuationPanel, TAKE, last_turn};
-use crate::scene::balanced::{Adviser, BalancedDrive, CHANNELS, Measurement, SensorUnit, reading, state};
+use crate::scene::balanced::{Adviser, BalancedDrive, CHANNELS, Measurement, reading, state};
 use crate::scene::on_axis::OnAxis;
 use crate::scene::panel_keys::{DONE, Key};
 
@@ -24,7 +25,7 @@ pub trait BetweenTicks<S> {
 /// A scene that no tick interrupts.
 impl<M, N, O, G, F> BetweenTicks<OnAxis<M, N, O, G, F>> for OnAxis<M, N, O, G, F>
 where
-    N: SensorUnit,
+    N: VibrationNumber,
     O: Part<N, State: Observer<N, Config: 'static>>,
     G: Part<N, State: Governor<N, Config: 'static>>,
     F: Part<N, State: Fluctuation<N, Config: 'static>>,
@@ -37,18 +38,41 @@ where
 /// State of the panel: `A` makes weights of readings.
 pub struct AxisPanel<M, A> {
     adviser: A,
+    head: HeadPanel<M>,
     fluctuation: FluctuationPanel<M>,
     /// Finished turns when the extremes were last looked at.
     cycles: u32,
 }
 
-impl<M, A: Adviser> Default for AxisPanel<M, A> {
+impl<M: SelfBalanced, A: Adviser> Default for AxisPanel<M, A> {
     fn default() -> Self {
-        AxisPanel { adviser: A::new(), fluctuation: FluctuationPanel::default(), cycles: 0 }
+        AxisPanel {
+            adviser: A::new(),
+            head: HeadPanel::new(false),
+            fluctuation: FluctuationPanel::default(),
+            cycles: 0,
+        }
     }
 }
 
-impl<M: HasVibration, A: Adviser> AxisPanel<M, A> {
+impl<M: SelfBalanced, A: Adviser> AxisPanel<M, A> {
+    /// A turn of the main loop: balances by the head, where that is on.
+    pub fn balance<N, O, G, F>(
+        &mut self,
+        config: &ConfigOf<BalancedDrive<N, O, G, F>>,
+        scene: &mut impl BetweenTicks<OnAxis<M, N, O, G, F>>,
+    ) where
+        N: VibrationNumber + 'static,
+        O: Part<N, State: Observer<N, Config: 'static>>,
+        G: Part<N, State: Governor<N, Config: 'static>>,
+        F: Part<N, State: Fluctuation<N, Config: 'static>>,
+    {
+        let head = &mut self.head;
+        if let Some(look) = scene.between_ticks(|scene| head.look(scene.drive_mut().balancer_mut())) {
+            head.proceed(&config.balancer, &look);
+        }
+    }
+
     /// Answers a request.
     pub fn ask<N, O, G, const BINS: usize>(
         &mut self,
@@ -57,7 +81,7 @@ impl<M: HasVibration, A: Adviser> AxisPanel<M, A> {
         [key, value]: [u32; 2],
     ) -> u32
     where
-        N: SensorUnit + Summed + Ranked + 'static,
+        N: VibrationNumber + Summed + Ranked + 'static,
         O: Part<N, State: Observer<N, Config: 'static>>,
         G: Part<N, State: Governor<N, Config: 'static>>,
     {
@@ -71,6 +95,9 @@ impl<M: HasVibration, A: Adviser> AxisPanel<M, A> {
                 DONE
             }
             (_, Some(key)) => {
+                if let Some(answer) = self.head.ask(key, value) {
+                    return answer;
+                }
                 let measurement = scene.between_ticks(|scene| *scene.drive().balancer());
                 self.advise(&config.balancer, &measurement, key, value)
             }
@@ -83,7 +110,7 @@ impl<M: HasVibration, A: Adviser> AxisPanel<M, A> {
 
     // Out of line: its stack is not that of the fluctuation's calculation as well.
     #[inline(never)]
-    fn advise<N: SensorUnit>(
+    fn advise<N: VibrationNumber>(
         &mut self,
         config: &PhasorsConfig<N, CHANNELS>,
         measurement: &Measurement<N>,
@@ -103,7 +130,7 @@ impl<M: HasVibration, A: Adviser> AxisPanel<M, A> {
         scene: &mut impl BetweenTicks<OnAxis<M, N, O, G, Interleaved<BINS>>>,
     ) -> Option<[f32; 3]>
     where
-        N: SensorUnit + Summed + Ranked + 'static,
+        N: VibrationNumber + Summed + Ranked + 'static,
         O: Part<N, State: Observer<N, Config: 'static>>,
         G: Part<N, State: Governor<N, Config: 'static>>,
     {

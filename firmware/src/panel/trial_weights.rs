@@ -204,7 +204,7 @@ impl<G: Goal, const ROWS: usize, const PLANES: usize> Adviser for TrialWeights<G
                 self.place = self.place.saturating_add(1);
                 if put { DONE } else { NOT_KEPT }
             }
-            (Key::Begin | Key::State | Key::Step | Key::HeadRe | Key::HeadIm, _) => NO_KEY,
+            (Key::Begin | Key::State | Key::Balance | Key::HeadRe | Key::HeadIm | Key::Grade, _) => NO_KEY,
         }
     }
 }

@@ -4,11 +4,11 @@ use core::marker::PhantomData;
 
 use driveline::angle::Synchronous;
 use driveline::balancing::{Phasors, PhasorsConfig, Reading, ReadingFault};
-use driveline::configure::HasVibration;
+use driveline::configure::{HasVibration, VibrationNumber};
 use driveline::drive::{ConfigOf, Drive};
 use driveline::fluctuation::Fluctuation;
 use driveline::governor::{Governor, SpeedLoop};
-use driveline::number::{Fixed, Part};
+use driveline::number::Part;
 use driveline::observer::Observer;
 
 use crate::scene::composed::{Beside, Composed, OverWords};
@@ -29,24 +29,6 @@ pub type BalancedDrive<N, O, G = SpeedLoop, F = ()> = Drive<N, O, G, F, Measurem
 
 /// A scene whose rotor is balanced: the machine, the number, the observer, and what its panel does with readings.
 pub type Balanced<M, N, O, A> = Composed<BalancedDrive<N, O>, Panel<M, A>>;
-
-/// A number that vibration is measured in.
-pub trait SensorUnit: Synchronous {
-    /// What a vibration of one is in the unit of the sensors.
-    fn unit<M: HasVibration>() -> f32;
-}
-
-impl SensorUnit for f32 {
-    fn unit<M: HasVibration>() -> f32 {
-        1.0
-    }
-}
-
-impl SensorUnit for Fixed {
-    fn unit<M: HasVibration>() -> f32 {
-        M::VIBRATION_BASE as f32
-    }
-}
 
 /// A complete reading.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,7 +51,7 @@ pub trait Adviser {
 /// A tick with its vibration, and no panel.
 pub struct Sampled;
 
-impl<N: SensorUnit, D: OverWords<Number = N, Balancer = Measurement<N>>> Beside<D> for Sampled {
+impl<N: Synchronous, D: OverWords<Number = N, Balancer = Measurement<N>>> Beside<D> for Sampled {
     fn start(_: &mut D, _: &ConfigOf<D>) -> Self {
         Sampled
     }
@@ -91,7 +73,7 @@ pub struct Panel<M, A> {
 impl<M, N, O, G, F, A> Beside<BalancedDrive<N, O, G, F>> for Panel<M, A>
 where
     M: HasVibration,
-    N: SensorUnit,
+    N: VibrationNumber,
     O: Part<N, State: Observer<N>>,
     G: Part<N, State: Governor<N>>,
     F: Part<N, State: Fluctuation<N>>,
@@ -134,11 +116,11 @@ where
 ///
 /// # Errors
 /// Why it is no reading, or not yet.
-pub fn reading<M: HasVibration, N: SensorUnit>(
+pub fn reading<M: HasVibration, N: VibrationNumber>(
     config: &PhasorsConfig<N, CHANNELS>,
     measurement: &Measurement<N>,
 ) -> Result<Measured, ReadingFault> {
-    let unit = N::unit::<M>();
+    let unit = N::vibration_unit::<M>();
     let read = |channel| {
         let reading = measurement.reading(config, channel)?;
         let (phasor, variance) = (reading.phasor.scaled(unit), reading.variance * unit * unit);
@@ -151,7 +133,10 @@ pub fn reading<M: HasVibration, N: SensorUnit>(
 }
 
 /// The answer to [`Key::State`].
-pub fn state<M: HasVibration, N: SensorUnit>(config: &PhasorsConfig<N, CHANNELS>, measurement: &Measurement<N>) -> u32 {
+pub fn state<M: HasVibration, N: VibrationNumber>(
+    config: &PhasorsConfig<N, CHANNELS>,
+    measurement: &Measurement<N>,
+) -> u32 {
     match reading::<M, N>(config, measurement) {
         Ok(_) => DONE,
         Err(ReadingFault::Incomplete { .. }) => MEASURING,

@@ -11,7 +11,7 @@
 use core::marker::PhantomData;
 
 use driveline::axis::{Axis, Board, TRIPPING};
-use driveline::configure::HasVibration;
+use driveline::configure::{HasVibration, VibrationNumber};
 use driveline::drive::ConfigOf;
 use driveline::fault::Faults;
 use driveline::fluctuation::Fluctuation;
@@ -19,7 +19,7 @@ use driveline::governor::Governor;
 use driveline::number::{Number, Part};
 use driveline::observer::Observer;
 
-use crate::scene::balanced::{BalancedDrive, SensorUnit, state};
+use crate::scene::balanced::{BalancedDrive, state};
 use crate::scene::composed::output;
 use crate::scene::panel_keys::{DONE, Key, refused};
 use crate::scene::{FromConfig, Input, Output, Scene};
@@ -71,7 +71,7 @@ impl<N: Number> Board<N> for Image<N> {
 /// only begins readings.
 pub struct OnAxis<M, N, O, G, F>
 where
-    N: SensorUnit + 'static,
+    N: VibrationNumber + 'static,
     O: Part<N, State: Observer<N, Config: 'static>>,
     G: Part<N, State: Governor<N, Config: 'static>>,
     F: Part<N, State: Fluctuation<N, Config: 'static>>,
@@ -85,7 +85,7 @@ where
 
 impl<M, N, O, G, F> OnAxis<M, N, O, G, F>
 where
-    N: SensorUnit + 'static,
+    N: VibrationNumber + 'static,
     O: Part<N, State: Observer<N, Config: 'static>>,
     G: Part<N, State: Governor<N, Config: 'static>>,
     F: Part<N, State: Fluctuation<N, Config: 'static>>,
@@ -104,7 +104,7 @@ where
 impl<M, N, O, G, F> FromConfig for OnAxis<M, N, O, G, F>
 where
     M: HasVibration,
-    N: SensorUnit + 'static,
+    N: VibrationNumber + 'static,
     O: Part<N, State: Observer<N, Config: 'static>>,
     G: Part<N, State: Governor<N, Config: 'static>>,
     F: Part<N, State: Fluctuation<N, Config: 'static>>,
@@ -121,7 +121,7 @@ where
 impl<M, N, O, G, F> Scene for OnAxis<M, N, O, G, F>
 where
     M: HasVibration,
-    N: SensorUnit + 'static,
+    N: VibrationNumber + 'static,
     O: Part<N, State: Observer<N, Config: 'static>>,
     G: Part<N, State: Governor<N, Config: 'static>>,
     F: Part<N, State: Fluctuation<N, Config: 'static>>,

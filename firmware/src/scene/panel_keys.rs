@@ -65,8 +65,8 @@ keys! {
     Predicted = 18,
     /// The condition number of the solution.
     Condition = 19,
-    /// Take the reading as a step of balancing in-run, and choose the next place of the head.
-    Step = 20,
+    /// Balance by the head, by itself: on (1) or off (0).
+    Balance = 20,
     /// The real part of the balancing head's correction.
     HeadRe = 21,
     /// Its imaginary part.
@@ -79,6 +79,8 @@ keys! {
     PutPlace = 25,
     /// A word of the flash, as a programmer puts it there; the place goes on by one.
     PutWord = 26,
+    /// The grade of the residual unbalance that the head leaves (mm/s); 0 before it holds.
+    Grade = 27,
 }
 
 /// Answers to [`Key::Next`].

@@ -4,15 +4,16 @@
 //! sensors stand on the bearing housings. Nothing is known of the spindle at first, neither its unbalance nor what a
 //! correction does to it.
 
-use driveline::balancing::{InRunConfig, Steadiness};
+use driveline::balancing::{BalancingDesign, Tolerance};
 use driveline::configure::{HasVibration, Machine, Rating};
 use driveline::design::{Disturbance, Encoder, SpeedLoopTuning};
 use driveline::machine::{Chain, Damping, Inertia, Speed, Stiffness, Torque};
 use driveline::observer;
-use driveline::settings::{Bases, PhasorSettings, Screening};
+use driveline::settings::{Bases, Screening};
 
-use crate::panel::balancing_head::{Head, HeadPanel};
-use crate::scene::balanced::Balanced;
+use crate::panel::balancing_head::{HeadPanel, SelfBalanced};
+use crate::scene::balanced::BalancedDrive;
+use crate::scene::composed::Composed;
 use crate::scene::table::variants;
 
 /// Motor, belt, spindle.
@@ -37,12 +38,6 @@ impl Machine for GrindingSpindle {
 }
 
 impl HasVibration for GrindingSpindle {
-    /// Eight blocks of eight turns, 1.3 s.
-    const PHASORS: PhasorSettings = PhasorSettings {
-        turns: 8,
-        steadiness: Steadiness { drift: 0.1, scatter: 0.1, floor: 0.4, ..Steadiness::USUAL },
-        ..PhasorSettings::DIRECT
-    };
     /// Of acceleration (m/s2).
     const VIBRATION_LIMIT: f64 = 20.0;
 }
@@ -50,25 +45,18 @@ impl HasVibration for GrindingSpindle {
 /// The largest correction of the head (kg m).
 pub const CAPACITY: f64 = 1.5e-3;
 
-/// The balancing head.
-pub struct TheHead;
-
-impl Head for TheHead {
-    /// The first step is a fiftieth of the capacity: an unbalance worth balancing is five times that, and so never
-    /// grows by a fifth.
-    const CONFIG: InRunConfig<f32, 1> = InRunConfig {
-        probe: CAPACITY as f32 / 50.0,
-        limits: [CAPACITY as f32],
-        step: 2.0 * CAPACITY as f32,
-        bound: 1.3,
-        target: 0.01,
-        forgetting: 0.7,
-        noise: 0.005,
+impl SelfBalanced for GrindingSpindle {
+    const BALANCING: BalancingDesign = BalancingDesign {
+        rotor: Tolerance { grade: 2.5, mass: 25.0, speed: Self::RATING.speed.0 as f32 },
+        capacity: [CAPACITY as f32],
+        travel: 3.0,
+        settle: 0.3,
+        quiet: 0.0,
     };
 }
 
 /// Two masses; balanced while it turns.
-pub type TwoMass<N> = Balanced<GrindingSpindle, N, observer::TwoMassObserver, HeadPanel<TheHead>>;
+pub type TwoMass<N> = Composed<BalancedDrive<N, observer::TwoMassObserver>, HeadPanel<GrindingSpindle>>;
 
 variants! {
     "two-mass": TwoMass for GrindingSpindle;

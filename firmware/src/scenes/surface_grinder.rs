@@ -18,19 +18,19 @@
 //! | `whole` | the drive, and a panel that balances and shows the fluctuation |
 //! | `tick` | the drive alone: the cost of a tick with all four parts |
 
-use driveline::balancing::{InRunConfig, Steadiness};
-use driveline::configure::{HasVibration, Machine, Rating};
+use driveline::balancing::{BalancingDesign, Tolerance};
+use driveline::configure::{HasVibration, Machine, Rating, VibrationNumber};
 use driveline::design::{Disturbance, Encoder, SpeedLoopDesign, SpeedLoopTuning};
 use driveline::drive::ConfigOf;
 use driveline::fluctuation::{Interleaved, Ranked, Summed};
 use driveline::governor::SpeedGovernor;
 use driveline::machine::{Chain, Damping, Inertia, Speed, Stiffness, Torque};
 use driveline::observer::SemiImplicitObserver;
-use driveline::settings::{PhasorSettings, Screening};
+use driveline::settings::Screening;
 
-use crate::panel::balancing_head::{Head, HeadPanel};
+use crate::panel::balancing_head::{HeadPanel, SelfBalanced};
 use crate::panel::fluctuation::{FluctuationPanel, TAKE};
-use crate::scene::balanced::{BalancedDrive, Panel, Sampled, SensorUnit};
+use crate::scene::balanced::{BalancedDrive, Sampled};
 use crate::scene::composed::{Beside, Composed};
 use crate::scene::panel_keys::Key;
 use crate::scene::table::variants;
@@ -62,11 +62,6 @@ impl Machine for SurfaceGrinder {
 }
 
 impl HasVibration for SurfaceGrinder {
-    /// Eight blocks of eight turns, 5.2 s.
-    const PHASORS: PhasorSettings = PhasorSettings {
-        steadiness: Steadiness { drift: 0.1, scatter: 0.1, floor: 1.0e-3, ..Steadiness::USUAL },
-        ..PhasorSettings::DIRECT
-    };
     /// Of velocity (m/s).
     const VIBRATION_LIMIT: f64 = 0.02;
 }
@@ -81,20 +76,13 @@ pub const BINS: usize = 32;
 /// The largest correction of the head (kg m).
 pub const CAPACITY: f64 = 2.0e-2;
 
-/// The balancing head.
-pub struct TheHead;
-
-impl Head for TheHead {
-    /// As the grinding spindle's: the first step is a fiftieth of the capacity, a fifth of any unbalance worth
-    /// balancing.
-    const CONFIG: InRunConfig<f32, 1> = InRunConfig {
-        probe: CAPACITY as f32 / 50.0,
-        limits: [CAPACITY as f32],
-        step: 2.0 * CAPACITY as f32,
-        bound: 1.3,
-        target: 0.01,
-        forgetting: 0.7,
-        noise: 0.005,
+impl SelfBalanced for SurfaceGrinder {
+    const BALANCING: BalancingDesign = BalancingDesign {
+        rotor: Tolerance { grade: 2.5, mass: 140.0, speed: Self::RATING.speed.0 as f32 },
+        capacity: [CAPACITY as f32],
+        travel: 3.0,
+        settle: 0.3,
+        quiet: 0.0,
     };
 }
 
@@ -117,13 +105,13 @@ variants! {
 
 /// State of the panel: the balancing, and the waveform that was kept.
 pub struct Desk {
-    balancing: Panel<SurfaceGrinder, HeadPanel<TheHead>>,
+    balancing: HeadPanel<SurfaceGrinder>,
     fluctuation: FluctuationPanel<SurfaceGrinder>,
 }
 
-impl<N: SensorUnit + Summed + Ranked> Beside<WholeDrive<N>> for Desk {
+impl<N: VibrationNumber + Summed + Ranked> Beside<WholeDrive<N>> for Desk {
     fn start(drive: &mut WholeDrive<N>, config: &ConfigOf<WholeDrive<N>>) -> Self {
-        Desk { balancing: Panel::start(drive, config), fluctuation: FluctuationPanel::default() }
+        Desk { balancing: HeadPanel::start(drive, config), fluctuation: FluctuationPanel::default() }
     }
 
     #[inline(always)]
@@ -138,9 +126,10 @@ impl<N: SensorUnit + Summed + Ranked> Beside<WholeDrive<N>> for Desk {
         asked: [u32; 2],
     ) -> u32 {
         let [key, _] = asked;
+        let answer = self.balancing.panel(drive, config, asked);
         match (key, Key::of(key)) {
             (TAKE, _) => self.fluctuation.keep(&config.fluctuation, drive.fluctuation_mut().waveform_mut().take()),
-            (_, Some(_)) => self.balancing.panel(drive, config, asked),
+            (_, Some(_)) => answer,
             (_, None) => self.fluctuation.number(&config.fluctuation, asked, || *drive.fluctuation().extremes()),
         }
     }

@@ -8,7 +8,7 @@
 //! whose torque swings once and twice a turn. A small balancing head on the disc's shaft can take the place of the
 //! weights. All can be bought or turned; it is no machine that exists.
 
-use driveline::balancing::{InRunConfig, Steadiness};
+use driveline::balancing::{self, BalancingDesign, Steadiness};
 use driveline::configure::{HasVibration, Machine, Rating};
 use driveline::design::{Disturbance, Encoder, SpeedLoopTuning, Tolerance};
 use driveline::fluctuation::Interleaved;
@@ -17,7 +17,7 @@ use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Section, She
 use driveline::observer::TwoMassObserver;
 use driveline::settings::{PhasorSettings, Screening};
 
-use crate::panel::balancing_head::{Head, HeadPanel};
+use crate::panel::balancing_head::SelfBalanced;
 use crate::panel::trial_weights::{Goal, TrialWeights};
 use crate::scene::on_axis::OnAxis;
 use crate::scene::table::variants;
@@ -87,24 +87,18 @@ impl Goal for Quiet {
 /// The largest correction of the head (kg m): grade G 16 of the disc's 0.62 kg at the button's speed.
 pub const CAPACITY: f64 = 1.0e-4;
 
-/// The balancing head.
-pub struct SmallHead;
-
-impl Head for SmallHead {
-    /// As the grinding spindle's.
-    const CONFIG: InRunConfig<f32, 1> = InRunConfig {
-        probe: CAPACITY as f32 / 50.0,
-        limits: [CAPACITY as f32],
-        step: 2.0 * CAPACITY as f32,
-        bound: 1.3,
-        target: 0.01,
-        forgetting: 0.7,
-        noise: 0.005,
+impl SelfBalanced for TestRig {
+    const BALANCING: BalancingDesign = BalancingDesign {
+        rotor: balancing::Tolerance { grade: 2.5, mass: 1.0, speed: SPEED as f32 },
+        capacity: [CAPACITY as f32],
+        travel: 3.0,
+        settle: 0.3,
+        quiet: 0.0,
     };
 }
 
-/// What makes weights of readings, in the holes or by the head; on a board it is beside the tick.
-pub type Adviser = (TrialWeights<Quiet, 2, 2>, HeadPanel<SmallHead>);
+/// What makes weights in the holes of readings; on a board it is beside the tick, as the head's task.
+pub type Adviser = TrialWeights<Quiet, 2, 2>;
 
 /// The drive with all four parts, on an axis.
 pub type Whole<N> = OnAxis<TestRig, N, TwoMassObserver, SpeedGovernor<(), ActiveDamping>, Interleaved<BINS>>;

@@ -2,6 +2,7 @@
 
 mod angle;
 mod awaited;
+mod balancing_head;
 mod bus;
 mod chips;
 mod enable;

@@ -6,7 +6,7 @@ use crate::balancing::error::Error;
 use crate::balancing::influence::Influence;
 use crate::balancing::matrix::{Matrix, pick, put};
 use crate::balancing::qr::Qr;
-use crate::balancing::scalar::{Complex, Scalar, real, size, zero};
+use crate::balancing::scalar::{Complex, Scalar, real, size, square, zero};
 
 /// Standard deviations that a move is bounded by.
 pub(super) const DEVIATIONS: f64 = 4.0;
@@ -68,6 +68,20 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Estimate<T, ROWS, PLANES
         }
         (self.known, self.confirmed) = (true, [true; PLANES]);
         Ok(())
+    }
+
+    /// Takes the influence and the standard deviation of each plane as they were.
+    pub(super) fn remember(&mut self, influence: Matrix<T, ROWS, PLANES>, deviation: &[T; PLANES]) {
+        self.influence = influence;
+        for (plane, deviation) in deviation.iter().enumerate() {
+            self.doubt_plane(plane, *deviation);
+        }
+        (self.known, self.confirmed) = (true, [true; PLANES]);
+    }
+
+    /// The influence of each plane on each row.
+    pub(super) fn coefficients(&self) -> [[Complex<T>; PLANES]; ROWS] {
+        self.influence.rows()
     }
 
     /// Begins with `most` as the largest coefficient; false where coefficients are known.
@@ -283,8 +297,13 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Estimate<T, ROWS, PLANES
 
     /// The change that minimises the expected square, uncertainty included.
     pub(super) fn cautious(&self) -> [Complex<T>; PLANES] {
+        self.cautious_from(&self.now)
+    }
+
+    /// The same from a reading.
+    fn cautious_from(&self, reading: &[Complex<T>; ROWS]) -> [Complex<T>; PLANES] {
         let mut qr = Qr::<T, PLANES>::new();
-        for (row, now) in self.now.iter().enumerate().take(self.rows) {
+        for (row, now) in reading.iter().enumerate().take(self.rows) {
             let mut a = [zero(); PLANES];
             for (plane, a) in a.iter_mut().enumerate() {
                 *a = self.influence.at(row, plane);
@@ -298,6 +317,18 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Estimate<T, ROWS, PLANES
             qr.absorb(&a, zero());
         }
         qr.pivoted(T::zero()).solve()
+    }
+
+    /// The unbalance behind a reading: what the planes lack, and what is left beside that over the least effective
+    /// plane's influence.
+    pub(super) fn residual(&self, reading: &[Complex<T>; ROWS]) -> T {
+        let lacking = self.cautious_from(reading);
+        let left = (0..self.rows)
+            .fold(T::zero(), |sum, row| sum + square(pick(reading, row, zero()) + self.change(row, &lacking)));
+        let norms = (0..PLANES).map(|plane| self.influence.norm_from(0, plane));
+        let least = norms.fold(None, |least: Option<T>, norm| Some(least.map_or(norm, |least| least.min(norm))));
+        let lacking = lacking.iter().fold(T::zero(), |sum, weight| sum + size(*weight));
+        lacking + least.map_or(T::zero(), |least| left.sqrt() / least)
     }
 
     /// The largest amplitude that a share of a step may lead to, within the standard deviations that count.

@@ -91,6 +91,8 @@ impl Told {
             if operator.machine.time() > end {
                 return Err(BalancingError::NoWaveform { time: patience });
             }
+            // the head's wires
+            operator.wait(10.0 * operator.machine.period())?;
         }
         Ok(())
     }

@@ -31,11 +31,10 @@ const IDLE: f64 = 0.1 * SurfaceGrinder::RATING.torque.0;
 const CUT: f64 = 0.4 * SurfaceGrinder::RATING.torque.0;
 /// Swing of the cut once and twice a turn, as a share of its mean.
 const SWING: [f64; 2] = [0.8, 0.3];
-/// Time for speed and whirl to settle at first, for the speed after the cut has begun, and for the whirl after the head
-/// has moved (s).
-const SETTLE: [f64; 3] = [1.5, 3.0, 0.2];
-/// Rate at which the head moves its correction (kg m/s): its whole capacity in a second.
-const RATE: f64 = scene::CAPACITY;
+/// Time for speed and whirl to settle at first, and for the speed after the cut has begun (s).
+const SETTLE: [f64; 2] = [1.5, 3.0];
+/// Mass of spindle, wheel and housings (kg).
+const MASS: f64 = 140.0;
 /// Where head and wheel are, from the centre of gravity (m).
 const WHEEL: f64 = 0.25;
 /// Longest wait for a window of turns (s): three windows.
@@ -84,7 +83,7 @@ impl GrinderStart {
     /// Spindle, wheel and housings: 140 kg.
     fn model(&self) -> Result<Model, BalancingError> {
         let bearing = |stiffness: f64| Bearing::anisotropic([stiffness, 0.8 * stiffness], [self.damping; 2]);
-        Ok(RigidRotor::new(140.0, 1.9, 6.0)
+        Ok(RigidRotor::new(MASS, 1.9, 6.0)
             .bearing(0.12, bearing(self.stiffness[0]))
             .bearing(-0.25, bearing(self.stiffness[1]))
             .station(WHEEL)
@@ -101,7 +100,7 @@ impl GrinderStart {
 pub fn grinder(words: Words, drive: &mut dyn Ticks, start: &GrinderStart) -> Result<(Course, Outcome), BalancingError> {
     let model = start.model()?;
     let found = Polar::degrees(start.unbalance.size, start.unbalance.angle);
-    let mut operator = Operator::new(machine(words, &model, found, start)?, drive);
+    let mut operator = Operator::new(machine(words, &model, found, start)?, drive).with_head(found);
     operator.machine.keep();
     operator.bring_to(SPEED, SETTLE[0])?;
     let begun = operator.machine.seen().len();
@@ -110,8 +109,8 @@ pub fn grinder(words: Words, drive: &mut dyn Ticks, start: &GrinderStart) -> Res
     operator.wait(SETTLE[1])?;
 
     let told = Told::ask(&mut operator, PATIENCE)?;
-    let run = HeadRun { model: &model, speed: SPEED, rate: RATE, settle: SETTLE[2] };
-    let (course, stages) = run.balance(&mut operator, found)?;
+    let run = HeadRun { model: &model, mass: MASS, speed: SPEED };
+    let (course, stages) = run.watch(&mut operator, found)?;
 
     let seen = operator.machine.seen();
     let window = &seen[told.from..told.to];

@@ -17,6 +17,16 @@ const PATIENCE: f64 = 60.0;
 /// Readings that are tried at a speed.
 const READINGS: usize = 12;
 
+/// The wires of a balancing head, as a watcher reads them: the weights beside the unbalance that was found.
+struct Wires {
+    found: Complex<f64>,
+    at: Complex<f64>,
+    /// Read last, while the other part is still to come.
+    real: Option<f64>,
+    /// Where it has stopped, and when (s), the start first.
+    stops: Vec<(f64, Complex<f64>)>,
+}
+
 /// A machine, its drive, and what the panel refused on the way.
 pub struct Operator<'a> {
     /// The machine.
@@ -24,12 +34,49 @@ pub struct Operator<'a> {
     drive: &'a mut dyn Ticks,
     /// Readings rejected by the panel, by reason.
     pub doubts: Vec<&'static str>,
+    head: Option<Wires>,
 }
 
 impl<'a> Operator<'a> {
     /// At a machine with a drive.
     pub fn new(machine: Machine, drive: &'a mut dyn Ticks) -> Self {
-        Operator { machine, drive, doubts: Vec::new() }
+        Operator { machine, drive, doubts: Vec::new(), head: None }
+    }
+
+    /// The same with a balancing head on a rotor with the unbalance `found` (kg m): its weights follow the drive's.
+    #[must_use]
+    pub fn with_head(mut self, found: Complex<f64>) -> Self {
+        let at = Complex::new(0.0, 0.0);
+        self.head = Some(Wires { found, at, real: None, stops: vec![(0.0, at)] });
+        self
+    }
+
+    /// Where the head has stopped (kg m), and when (s), the start first.
+    #[must_use]
+    pub fn stops(&self) -> &[(f64, Complex<f64>)] {
+        self.head.as_ref().map_or(&[], |head| &head.stops)
+    }
+
+    /// A tick; the wires of the head carry its weights, the real part and the imaginary part in turn.
+    fn pass(&mut self) -> Result<(), BalancingError> {
+        let Some(head) = &mut self.head else {
+            self.machine.tick(self.drive, [0, 0])?;
+            return Ok(());
+        };
+        let key = if head.real.is_none() { Key::HeadRe } else { Key::HeadIm };
+        let part = f64::from(f32::from_bits(self.machine.tick(self.drive, [key as u32, 0])?.answer));
+        let Some(real) = head.real.take() else {
+            head.real = Some(part);
+            return Ok(());
+        };
+        let at = Complex::new(real, part);
+        if at != head.at {
+            head.at = at;
+            self.machine.whirl().set_unbalance(&[head.found + at])?;
+        } else if head.stops.last().is_none_or(|(_, stop)| *stop != at) {
+            head.stops.push((self.machine.time(), at));
+        }
+        Ok(())
     }
 
     /// Sends a request to the panel.
@@ -84,7 +131,7 @@ impl<'a> Operator<'a> {
     pub fn wait(&mut self, time: f64) -> Result<(), BalancingError> {
         let ticks = (time / self.machine.period()).round() as u64;
         for _ in 0..ticks {
-            self.machine.tick(self.drive, [0, 0])?;
+            self.pass()?;
         }
         Ok(())
     }
@@ -102,7 +149,7 @@ impl<'a> Operator<'a> {
                 let reached = self.machine.speed();
                 return Err(BalancingError::NotReached { speed, time: PATIENCE, reached });
             }
-            self.machine.tick(self.drive, [0, 0])?;
+            self.pass()?;
         }
         self.wait(settle)
     }

@@ -10,6 +10,7 @@ use driveline::configure::HasVibration as _;
 use driveline::configure::Machine as _;
 use driveline_firmware::Words;
 use driveline_firmware::panel::axis_panel::AxisPanel;
+use driveline_firmware::scene::panel_keys::Key;
 use driveline_firmware::scene::{Constants, Input, Of, Output, Scene as _, Variant as _};
 use driveline_firmware::scenes::test_rig::{self as scene, Adviser, TestRig, Whole};
 
@@ -29,6 +30,8 @@ use driveline_solver::rotor::{Bearing, Direction, Faulty, Modal, Model, Polar, R
 const SPEED: f64 = scene::SPEED;
 /// Motor with half coupling, and disc (kg m2).
 const INERTIA: [f64; 2] = [3.2e-5, 7.7e-4];
+/// Mass of disc, shaft and half coupling (kg).
+const MASS: f64 = 1.0;
 /// Torque of the brake, and of the spring once and twice a turn (N m).
 const BRAKE: f64 = 0.3 * TestRig::RATING.torque.0;
 const SPRING: [f64; 2] = [0.1, 0.03];
@@ -48,6 +51,7 @@ impl Ticks for Rig {
     fn tick(&mut self, input: &Input) -> io::Result<Output> {
         let output = self.scene.tick(input);
         let config = <Of<TestRig, Whole<f32>> as Constants>::CONFIG;
+        self.panel.balance(config, &mut self.scene);
         Ok(Output { answer: self.panel.ask(config, &mut self.scene, input.asked), ..output })
     }
 }
@@ -61,7 +65,7 @@ pub fn rig(start: &GrinderStart) -> Result<(Course, Vec<Claim>), BalancingError>
     let model = model(start)?;
     let found = Polar::degrees(start.unbalance.size * UNBALANCE, start.unbalance.angle);
     let mut drive = Rig { scene: Of::<TestRig, Whole<f32>>::start(), panel: AxisPanel::default() };
-    let mut operator = Operator::new(machine(&model, found, start)?, &mut drive);
+    let mut operator = Operator::new(machine(&model, found, start)?, &mut drive).with_head(found);
     operator.machine.keep();
     operator.bring_to(SPEED, SETTLE[0])?;
     let braked = operator.machine.seen().len();
@@ -72,8 +76,9 @@ pub fn rig(start: &GrinderStart) -> Result<(Course, Vec<Claim>), BalancingError>
     operator.wait(SETTLE[1])?;
 
     let told = Told::ask(&mut operator, PATIENCE)?;
-    let run = HeadRun { model: &model, speed: SPEED, rate: scene::CAPACITY, settle: SETTLE[1] };
-    let course = run.balance(&mut operator, found)?.0;
+    operator.press(Key::Balance, 1)?;
+    let run = HeadRun { model: &model, mass: MASS, speed: SPEED };
+    let course = run.watch(&mut operator, found)?.0;
 
     let seen = operator.machine.seen();
     let window = &seen[told.from..told.to];
@@ -99,7 +104,7 @@ fn model(start: &GrinderStart) -> Result<Model, BalancingError> {
     let bearing = |stiffness: f64| {
         Bearing::anisotropic([STIFFNESS * stiffness, 0.8 * STIFFNESS * stiffness], [DAMPING * start.damping; 2])
     };
-    Ok(RigidRotor::new(1.0, 7.7e-4, 1.5e-3)
+    Ok(RigidRotor::new(MASS, 7.7e-4, 1.5e-3)
         .bearing(0.06, bearing(start.stiffness[0]))
         .bearing(-0.06, bearing(start.stiffness[1]))
         .station(0.02)

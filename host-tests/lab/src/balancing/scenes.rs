@@ -25,13 +25,13 @@ pub const fn scenes() -> [Scene; 4] {
         Scene {
             name: "grinding-spindle",
             summary: "A grinding spindle with a balancing head that moves two masses while it turns at 3000 r/min: \
-                balanced in-run, without prior data.",
+                it balances itself, without prior data and without a command.",
             balance: spindle::run,
         },
         Scene {
             name: "surface-grinder",
             summary: "A surface grinder whose drive has all four parts: it observes coupling and wheel, measures the \
-                fluctuation that a wheel out of round makes, governs, and balances the wheel while it cuts.",
+                fluctuation that a wheel out of round makes, governs, and balances the wheel by itself while it cuts.",
             balance: grinder::run,
         },
     ]

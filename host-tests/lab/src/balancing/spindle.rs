@@ -18,10 +18,10 @@ use driveline_solver::noise::Noise;
 use driveline_solver::plant::{Chain, Shaft};
 use driveline_solver::rotor::{Bearing, Direction, Faulty, Modal, Model, Polar, RigidRotor, Transducer, Whirl};
 
-/// Rate at which the head moves its correction (kg m/s): its whole capacity in a second.
-const RATE: f64 = scene::CAPACITY;
-/// Time for speed and whirl to settle at first, and for the whirl after the head has moved (s).
-const SETTLE: [f64; 2] = [1.5, 0.2];
+/// Time for speed and whirl to settle at first (s).
+const SETTLE: f64 = 1.5;
+/// Mass of the spindle (kg).
+const MASS: f64 = 25.0;
 /// Where the head and the wheel are, from the centre of gravity (m).
 const WHEEL: f64 = 0.2;
 
@@ -66,7 +66,7 @@ impl SpindleStart {
 
     fn model(&self) -> Result<Model, BalancingError> {
         let bearing = |stiffness: f64| Bearing::anisotropic([stiffness, 0.8 * stiffness], [self.damping; 2]);
-        Ok(RigidRotor::new(25.0, 0.18, 0.35)
+        Ok(RigidRotor::new(MASS, 0.18, 0.35)
             .bearing(0.1, bearing(self.stiffness[0]))
             .bearing(-0.15, bearing(self.stiffness[1]))
             .station(WHEEL)
@@ -83,10 +83,10 @@ impl SpindleStart {
 pub fn spindle(words: Words, drive: &mut dyn Ticks, start: &SpindleStart) -> Result<(Course, Outcome), BalancingError> {
     let model = start.model()?;
     let found = Polar::degrees(start.unbalance.size, start.unbalance.angle);
-    let mut operator = Operator::new(machine(words, &model, found, start)?, drive);
-    operator.bring_to(GrindingSpindle::RATING.speed.0, SETTLE[0])?;
-    let run = HeadRun { model: &model, speed: GrindingSpindle::RATING.speed.0, rate: RATE, settle: SETTLE[1] };
-    let (course, stages) = run.balance(&mut operator, found)?;
+    let mut operator = Operator::new(machine(words, &model, found, start)?, drive).with_head(found);
+    operator.bring_to(GrindingSpindle::RATING.speed.0, SETTLE)?;
+    let run = HeadRun { model: &model, mass: MASS, speed: GrindingSpindle::RATING.speed.0 };
+    let (course, stages) = run.watch(&mut operator, found)?;
     let claims = course.claims();
     let rows = ["front bearing", "rear bearing"].map(str::to_owned).to_vec();
     let measure = "share of the vibration that is left";
