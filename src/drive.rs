@@ -38,10 +38,12 @@
 
 mod axis;
 mod composition;
+mod recorder;
 mod switch;
 
 pub use axis::MADE_UP;
 pub use composition::{Composition, ConfigOf, VibrationOf};
+pub use recorder::Recorded;
 
 use crate::balancing::Balancer;
 use crate::fault::Faults;
@@ -172,6 +174,9 @@ where
             command = Command { torque: N::ZERO, faults: Faults::SETPOINT };
         }
         self.fluctuation.disturb();
+        let turned = N::from_angle(angle.wrapping_sub(self.observer.angle()) as i32);
+        self.governor.set_turn_in_hold(&config.governor, turned);
+        command.faults |= self.governor.faults();
         command.torque = self.governor.permitted(&config.governor, &Estimate::default(), command.torque);
         self.observer.restart(&config.observer, angle, command.torque, N::ZERO);
         self.governor.start(&config.governor, &self.estimate(config), command.torque);
@@ -281,6 +286,8 @@ where
         }
         let coasted = self.coasted;
         let predicted = self.observer.predict(&config.observer, sample.angle, torque);
+        let innovation = if has_angle { predicted.innovation() } else { N::ZERO };
+        self.governor.set_response(&config.governor, torque, innovation);
         let unchanged = sample.angle == self.observer.angle();
         let frozen = unchanged && predicted.turn().exceeds(limits.frozen_turn);
         if !has_angle || frozen || predicted.innovation().exceeds(limits.innovation) {
@@ -310,7 +317,7 @@ where
         if <StateOf<G, N>>::COMMANDS {
             self.commanded = torque;
         }
-        Command { torque, faults }
+        Command { torque, faults: faults | self.governor.faults() }
     }
 
     /// No torque while the angle is lost.
@@ -319,7 +326,7 @@ where
         self.commanded = N::ZERO;
         let estimate = self.estimate(config);
         self.governor.angle_lost(&config.governor, &estimate);
-        Command { torque: N::ZERO, faults: faults | Faults::ANGLE_LOST }
+        Command { torque: N::ZERO, faults: faults | self.governor.faults() | Faults::ANGLE_LOST }
     }
 
     /// The angle is lost: commands no torque, looks for two angles in a row that differ, and goes on from the second.

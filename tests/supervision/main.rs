@@ -1,0 +1,8 @@
+//! Faults of whole machines: what a supervised drive does, and what it says.
+
+mod faults;
+mod machines;
+mod plant;
+mod quiet;
+mod replay;
+mod run;
