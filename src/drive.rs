@@ -30,7 +30,8 @@
 //! # Ticks that do not run
 //! An observer predicts one period a tick. A tick that does not run leaves the next angle a period further than
 //! predicted, an error as if the motor's speed had jumped. A control loop that may miss ticks counts them and calls
-//! [`Drive::tick_after`], or [`Drive::make_up`] before a tick; [`Axis`](crate::axis::Axis) does both.
+//! [`Drive::tick_after`], or [`Drive::make_up`] before a tick; [`Axis`](crate::axis::Axis) does both. [`TickCount`]
+//! counts them from a number in the sample.
 //!
 //! # Standstill
 //! Below the speed of the frozen-turn limit, a frozen encoder and a locked machine cannot be distinguished from the
@@ -40,10 +41,12 @@ mod axis;
 mod composition;
 mod recorder;
 mod switch;
+mod tick_count;
 
 pub use axis::MADE_UP;
 pub use composition::{Composition, ConfigOf, VibrationOf};
 pub use recorder::Recorded;
+pub use tick_count::TickCount;
 
 use crate::balancing::Balancer;
 use crate::fault::Faults;

@@ -2,6 +2,7 @@
 
 mod faults;
 mod machines;
+mod missed;
 mod plant;
 mod quiet;
 mod replay;
