@@ -98,8 +98,9 @@ use crate::sample::{Command, Sample};
 pub use board::{AngleSensor, Board, Enabling, Parts, TorqueOutput, VibrationSensor};
 pub use missed_ticks::MissedTicks;
 
-/// The usual tripping faults: a failed torque output or enable line, and a lost angle.
-pub const TRIPPING: Faults = Faults::TORQUE_OUTPUT.with(Faults::ENABLE).with(Faults::ANGLE_LOST);
+/// The usual tripping faults: a failed torque output or enable line, a lost angle, and the end of a stop of the
+/// supervision.
+pub const TRIPPING: Faults = Faults::TORQUE_OUTPUT.with(Faults::ENABLE).with(Faults::ANGLE_LOST).with(Faults::STOPPED);
 
 /// A drive on a board. It starts with the power stage off.
 #[derive(Debug)]

@@ -44,6 +44,7 @@
 //! | `Slew` | [`HasSlew::SLEW`], those of its limit | [`HasSlew`] |
 //! | `BacklashTakeUp` | [`HasBacklash::TAKE_UP`], those of its limit | [`HasBacklash`] |
 //! | `InputShaper` | [`HasInputShaper::SHAPER`], [`Machine::RAMP`], those of its governor | [`HasInputShaper`] |
+//! | `Supervised` | [`Machine::SUPERVISION`], those of its governor | |
 //! | `Droop` | [`HasDroop::DROOP`] | [`HasDroop`] |
 //! | `Barred` | [`HasBarredSpeeds::BARRED`] | [`HasBarredSpeeds`] |
 //! | `FeedForward`, `AccelerationFeedback` | [`Machine::GAINS`] | [`GainSource::Governor`] |

@@ -30,7 +30,8 @@
 //! # Ticks that do not run
 //! An observer predicts one period a tick. A tick that does not run leaves the next angle a period further than
 //! predicted, an error as if the motor's speed had jumped. A control loop that may miss ticks counts them and calls
-//! [`Drive::tick_after`], or [`Drive::make_up`] before a tick; [`Axis`](crate::axis::Axis) does both.
+//! [`Drive::tick_after`], or [`Drive::make_up`] before a tick; [`Axis`](crate::axis::Axis) does both. [`TickCount`]
+//! counts them from a number in the sample.
 //!
 //! # Standstill
 //! Below the speed of the frozen-turn limit, a frozen encoder and a locked machine cannot be distinguished from the
@@ -38,10 +39,14 @@
 
 mod axis;
 mod composition;
+mod recorder;
 mod switch;
+mod tick_count;
 
 pub use axis::MADE_UP;
 pub use composition::{Composition, ConfigOf, GovernorConfigOf, ObserverConfigOf, VibrationOf};
+pub use recorder::Recorded;
+pub use tick_count::TickCount;
 
 use crate::balancing::Balancer;
 use crate::fault::Faults;
@@ -156,6 +161,9 @@ where
             command = Command { torque: N::ZERO, faults: Faults::SETPOINT };
         }
         self.fluctuation.disturb();
+        let turned = N::from_angle(angle.wrapping_sub(self.observer.angle()) as i32);
+        self.governor.set_turn_in_hold(&config.governor, turned);
+        command.faults |= self.governor.faults();
         command.torque = self.governor.permitted(&config.governor, &Estimate::default(), command.torque);
         self.observer.restart(&config.observer, angle, command.torque, N::ZERO);
         self.governor.start(&config.governor, &self.estimate(config), command.torque);
@@ -246,6 +254,8 @@ where
         }
         let coasted = self.coasted;
         let predicted = self.observer.predict(&config.observer, sample.angle, torque);
+        let innovation = if has_angle { predicted.innovation() } else { N::ZERO };
+        self.governor.set_response(&config.governor, torque, innovation);
         let unchanged = sample.angle == self.observer.angle();
         let frozen = unchanged && predicted.turn().exceeds(limits.frozen_turn);
         if !has_angle || frozen || predicted.innovation().exceeds(limits.innovation) {
@@ -275,7 +285,7 @@ where
         if <StateOf<G, N>>::COMMANDS {
             self.commanded = torque;
         }
-        Command { torque, faults }
+        Command { torque, faults: faults | self.governor.faults() }
     }
 
     /// No torque while the angle is lost.
@@ -284,7 +294,7 @@ where
         self.commanded = N::ZERO;
         let estimate = self.estimate(config);
         self.governor.angle_lost(&config.governor, &estimate);
-        Command { torque: N::ZERO, faults: faults | Faults::ANGLE_LOST }
+        Command { torque: N::ZERO, faults: faults | self.governor.faults() | Faults::ANGLE_LOST }
     }
 
     /// The angle is lost: commands no torque, looks for two angles in a row that differ, and goes on from the second.

@@ -45,8 +45,29 @@ impl Faults {
     /// Ticks did not run before this one; up to [`MADE_UP`](crate::drive::MADE_UP) were made up by prediction.
     pub const TICK_MISSED: Faults = Faults(1 << 30);
 
+    /// The load is blocked: it jams, or a brake is closed or drags. From the motor's side these are the same.
+    pub const LOAD_BLOCKED: Faults = Faults(1 << 6);
+    /// The load is lost: a rope or a coupling is broken or slips, or the load stands on the ground.
+    pub const LOAD_LOST: Faults = Faults(1 << 7);
+    /// The machine does not follow the torque that is commanded: the power stage gives less, the torque constant or
+    /// the angle's sign or ratio is wrong, or the load is more than the motor can hold.
+    pub const NOT_FOLLOWED: Faults = Faults(1 << 8);
+    /// Motor or load is faster than permitted.
+    pub const OVERSPEED: Faults = Faults(1 << 9);
+    /// The shaft's torque is beyond its limit.
+    pub const SHAFT_OVERLOAD: Faults = Faults(1 << 10);
+    /// The reported torque is not the commanded one: the power stage does not follow, or its report is wrong.
+    pub const TORQUE_REPORT: Faults = Faults(1 << 11);
+    /// The motor turns behind a closed brake.
+    pub const BRAKE_SLIP: Faults = Faults(1 << 12);
+    /// A stop of the supervision has ended: no torque is commanded, and the brake is to be closed.
+    pub const STOPPED: Faults = Faults(1 << 13);
+
+    /// The causes of a [`Supervised`](crate::governor::Supervised) governor's stops.
+    pub const SUPERVISION: Faults = Faults(0x1fc0);
+
     /// Every flag with its name.
-    pub const NAMES: [(Faults, &'static str); 13] = [
+    pub const NAMES: [(Faults, &'static str); 21] = [
         (Faults::TORQUE, "torque"),
         (Faults::SETPOINT, "setpoint"),
         (Faults::ANGLE_JUMP, "angle jump"),
@@ -60,6 +81,14 @@ impl Faults {
         (Faults::ENABLE, "enable"),
         (Faults::TRIPPED, "tripped"),
         (Faults::TICK_MISSED, "tick missed"),
+        (Faults::LOAD_BLOCKED, "load blocked"),
+        (Faults::LOAD_LOST, "load lost"),
+        (Faults::NOT_FOLLOWED, "not followed"),
+        (Faults::OVERSPEED, "overspeed"),
+        (Faults::SHAFT_OVERLOAD, "shaft overload"),
+        (Faults::TORQUE_REPORT, "torque report"),
+        (Faults::BRAKE_SLIP, "brake slip"),
+        (Faults::STOPPED, "stopped"),
     ];
 
     /// Whether there is none.

@@ -12,6 +12,7 @@
 //! | [`SpeedLoop`] | continuous operation: proportional, integral, active damping, lags of setpoint and damping |
 //! | [`SpeedGovernor`] | composed of parts: droop, feed-forward, limits by a curve, run sequence and trips |
 //! | [`InputShaper`] round one of them | a swinging load: the setpoint in parts whose swings cancel |
+//! | [`Supervised`] round any of them | a stop where the machine does not follow its commands |
 //!
 //! [`LoadSharing`] stands behind any of them, where several motors turn one gear. [`ResistorStarter`] and
 //! [`SoftStarter`] start a motor that none of them governs.
@@ -30,6 +31,7 @@ mod soft_starter;
 mod speed_filter;
 mod speed_governor;
 mod speed_loop;
+mod supervision;
 mod transport_delay;
 
 pub use actuator_monitor::{ActuatorMonitor, ActuatorMonitorConfig};
@@ -52,8 +54,10 @@ pub use soft_starter::{SoftStarter, SoftStarterConfig};
 pub use speed_filter::{CycleAverage, MovingAverage, MovingAverageConfig, SpeedFilter};
 pub use speed_governor::{Gains, SpeedGovernor, SpeedGovernorConfig};
 pub use speed_loop::{SpeedLoop, SpeedLoopConfig};
+pub use supervision::{Supervised, SupervisedConfig, SupervisionConfig};
 pub use transport_delay::{TransportDelay, TransportDelayConfig};
 
+use crate::fault::Faults;
 use crate::number::Number;
 use crate::sample::Estimate;
 
@@ -76,6 +80,21 @@ pub trait Governor<N: Number>: Default {
     /// before [`command`](Self::command).
     #[inline(always)]
     fn set_steady_speed(&mut self, _steady_speed: Option<N>) {}
+
+    /// Sets the torque of the tick that has ended, as the sample reported it, and the innovation of its angle
+    /// (2^-32 turn): once a tick, before [`command`](Self::command).
+    #[inline(always)]
+    fn set_response(&mut self, _config: &Self::Config, _torque: N, _innovation: N) {}
+
+    /// Sets the turn of the motor in a tick against a closed brake (2^-32 turn).
+    #[inline(always)]
+    fn set_turn_in_hold(&mut self, _config: &Self::Config, _turned: N) {}
+
+    /// Its own faults, which join those of the tick.
+    #[inline(always)]
+    fn faults(&self) -> Faults {
+        Faults::NONE
+    }
 
     /// The torque for the tick that begins.
     fn command(&mut self, config: &Self::Config, estimate: &Estimate<N>) -> N;

@@ -23,6 +23,7 @@ mod observer;
 mod phasors;
 mod settled;
 mod speed_loop;
+mod supervision;
 mod to;
 mod wheel;
 

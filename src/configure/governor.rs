@@ -10,8 +10,8 @@ use crate::governor::{
     BacklashTakeUpConfig, Barred, BarredConfig, Curve, CurveConfig, CycleAverage, DampingLag, DampingLagConfig, Droop,
     DroopConfig, FeedForward, FeedForwardConfig, Gains, InputShaper, InputShaperConfig, LoadSharing, LoadSharingConfig,
     LoopFilter, MovingAverage, MovingAverageConfig, Sequencer, SequencerConfig, SetpointLag, Slew, SlewConfig,
-    SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, SymmetricLimit, SymmetricLimitConfig, TorqueRange,
-    TorqueRangeConfig,
+    SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, Supervised, SupervisedConfig, SupervisionConfig,
+    SymmetricLimit, SymmetricLimitConfig, TorqueRange, TorqueRangeConfig,
 };
 use crate::number::{Fixed, Number, Part};
 use crate::settings::{Bases, LoadSharingSettings, SequencerSettings, SpeedLoopSettings};
@@ -195,6 +195,15 @@ macro_rules! governors {
             type Config = SlewConfig<$number, L::Config>;
             const CONFIG: Self::Config = SlewConfig::<$number, _>::new(M::SLEW, L::CONFIG, M::PERIOD, $bases);
             const LOOP: LoopPart = L::LOOP;
+        }
+
+        impl<M: Machine, G: Configure<M, $number, Config: Copy>> Configure<M, $number> for Supervised<G> {
+            type Config = SupervisedConfig<$number, G::Config>;
+            const CONFIG: Self::Config = SupervisedConfig {
+                governor: G::CONFIG,
+                supervision: SupervisionConfig::<$number>::new(&M::SUPERVISION, M::PERIOD, $bases),
+            };
+            const LOOP: LoopPart = G::LOOP;
         }
 
         impl<M: HasInputShaper, G, const SLOTS: usize, const PARTS: usize> Configure<M, $number>

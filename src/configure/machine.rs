@@ -2,8 +2,8 @@
 
 use super::GainSource;
 use crate::design::{
-    Actuator, BacklashDesign, BacklashTuning, Disturbance, Encoder, Rate, RigidDesign, Robustness, SpeedLoopDesign,
-    SpeedLoopTuning, Tolerance, TwoMassDesign,
+    Actuator, BacklashDesign, BacklashTuning, Disturbance, Encoder, LoadStep, Rate, RigidDesign, Robustness,
+    SpeedLoopDesign, SpeedLoopTuning, Supervision, Tolerance, TwoMassDesign,
 };
 use crate::learning::LearningBounds;
 use crate::machine::{Chain, Match, Speed, Torque, TwoMass};
@@ -201,6 +201,21 @@ pub trait Machine {
     ///
     /// With an encoder of more than 2^17 counts a smaller innovation is found out sooner.
     const SCREENING: Screening = Self::RATING.screening(Self::ENCODER, Self::RATE);
+    /// Largest change of the load torque that belongs to the work: rated torque at once. The slower and smaller it is, the
+    /// sooner a fault is found.
+    const LOAD_STEP: LoadStep = LoadStep { torque: Self::RATING.torque.0, rise: 0.0 };
+    /// Limits of a supervised drive: [`Supervision::of`] observer, rating and tolerances, the innovation at most half
+    /// of a sample's limit. A machine of one mass names [`RigidDesign::innovation_response`].
+    const SUPERVISION: Supervision = Supervision::of(
+        &Self::RATING,
+        Self::OBSERVER.innovation_response(&Self::LOAD_STEP),
+        &Self::TOLERANCE,
+        Self::ENCODER,
+        &Self::LOAD_STEP,
+        Self::RAMP,
+        Self::PERIOD,
+    )
+    .within(&Self::SCREENING);
     /// Bases of fixed point: [`Rating::bases`] with observers, gear and speed loop.
     ///
     /// A machine with a soft governor names larger ones. A machine of one mass, or one whose shaft no observer can
