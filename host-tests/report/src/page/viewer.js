@@ -38,14 +38,11 @@ for (const group of document.querySelectorAll("svg g.plot")) {
   const back = ([px, py]) => [(px - shown[1]) / shown[0], (py - shown[3]) / shown[2]];
   const number = (value) => value === 0 ? "0" : Math.abs(value) >= 1e6 || Math.abs(value) < 1e-4 ? value.toExponential(3) : String(+value.toPrecision(4));
 
-  const clip = make("clipPath"), inside = make("rect"), outer = make("g"), cursor = make("line"), chosen = make("rect");
-  clip.id = `clip${document.querySelectorAll("clipPath").length}`;
-  for (const [key, value] of [["x", left], ["y", top], ["width", right - left], ["height", bottom - top]]) inside.setAttribute(key, value);
-  clip.append(inside);
-  outer.setAttribute("clip-path", `url(#${clip.id})`);
+  const outer = make("g"), cursor = make("line"), chosen = make("rect");
+  const corners = [[left, top], [right, top], [right, bottom], [left, bottom]].map((corner) => `${corner[0]}px ${corner[1]}px`);
+  outer.style.clipPath = `polygon(${corners}) view-box`;
   group.replaceWith(outer);
   outer.append(group, chosen, cursor);
-  svg.prepend(clip);
   cursor.classList.add("edge");
   chosen.classList.add("band");
   const values = document.createElement("output");
