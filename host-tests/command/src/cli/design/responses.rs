@@ -21,6 +21,8 @@ const POINTS: usize = 800;
 /// Points about each resonance, and how far they reach.
 const ABOUT: usize = 60;
 const REACH: f64 = 0.1;
+/// Highest frequency, over half the rate, where a sampled response has its zeros.
+const HIGHEST: f64 = 0.98;
 /// Most points of a step.
 const SHOWN: usize = 1_000;
 /// Steps last so many radians of the speed's natural frequency.
@@ -175,7 +177,7 @@ pub struct Observed {
 pub struct Responses {
     /// Where the loop is cut, in words.
     pub cut: &'static str,
-    /// Frequencies (Hz), up to half the rate.
+    /// Frequencies (Hz), up to 0.98 of half the rate.
     pub hz: Vec<f64>,
     /// The machine as the file has it, with all its vibrations.
     pub nominal: One,
@@ -232,7 +234,7 @@ impl Responses {
             late: false,
         };
         let slowest = 1e-2 * speed_loop.integral / speed_loop.proportional;
-        let frequencies = frequencies(slowest, PI / period, two.antiresonance(), &nominal.body);
+        let frequencies = frequencies(slowest, HIGHEST * PI / period, two.antiresonance(), &nominal.body);
         let within: Vec<(u32, InLoop)> = (0..4 * tolerance.machines())
             .map(|index| {
                 let machine = tolerance.machine(two, index / 4);
@@ -351,10 +353,10 @@ fn distance(open: &[Complex<f64>]) -> f64 {
     open.iter().map(|value| (value + 1.0).norm()).fold(f64::INFINITY, f64::min)
 }
 
-/// Frequencies (rad/s) from the slowest to half the rate, denser about the antiresonance, the resonances and on their
+/// Frequencies (rad/s) from the slowest to the highest, denser about the antiresonance, the resonances and on their
 /// flanks.
-fn frequencies(slowest: f64, nyquist: f64, antiresonance: f64, body: &Body) -> Vec<f64> {
-    let even = (0..POINTS).map(|point| slowest * (nyquist / slowest).powf(point as f64 / (POINTS - 1) as f64));
+fn frequencies(slowest: f64, highest: f64, antiresonance: f64, body: &Body) -> Vec<f64> {
+    let even = (0..POINTS).map(|point| slowest * (highest / slowest).powf(point as f64 / (POINTS - 1) as f64));
     let mut all: Vec<f64> = even.collect();
     for [frequency, damping] in body.resonances().chain([[antiresonance, 0.0]]) {
         let share = |point: usize| 1.0 - REACH + 2.0 * REACH * point as f64 / ABOUT as f64;
@@ -362,7 +364,7 @@ fn frequencies(slowest: f64, nyquist: f64, antiresonance: f64, body: &Body) -> V
         let widths = [0.0, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0];
         all.extend(widths.into_iter().flat_map(|n| [frequency - n * damping, frequency + n * damping]));
     }
-    all.retain(|at| (slowest..=nyquist).contains(at));
+    all.retain(|at| (slowest..=highest).contains(at));
     all.sort_by(f64::total_cmp);
     all.dedup();
     all
