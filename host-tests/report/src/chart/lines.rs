@@ -94,8 +94,9 @@ impl Lines {
     fn linear(&self, values: impl Iterator<Item = f64>) -> Scale {
         let values: Vec<f64> = values.collect();
         let ends = values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(*v), b.max(*v)]);
-        let is_ripple = ends[1] - ends[0] < RIPPLE * ends[0].abs().max(ends[1].abs());
-        let zero = (!self.decades && !(is_ripple && ends[1] > ends[0])).then_some(0.0);
+        let height = ends[1] - ends[0];
+        let is_ripple = height > 0.0 && height < RIPPLE * ends[0].abs().max(ends[1].abs());
+        let zero = (!self.decades && !is_ripple).then_some(0.0);
         Scale::linear(values.into_iter().chain(zero), FRAME[3], FRAME[1])
     }
 
