@@ -30,6 +30,7 @@ mod replay;
 pub mod results;
 mod rotor;
 pub mod setup;
+mod shell;
 mod simulate;
 mod watch;
 
@@ -74,6 +75,7 @@ pub enum Command {
     Cosim(cosim::Cosim),
     Replay(replay::Replay),
     Setup(setup::Setup),
+    Shell(shell::Shell),
     Simulate(simulate::Simulate),
     Watch(watch::Watch),
 }
@@ -88,7 +90,7 @@ impl Command {
             Self::Example(command) => command.json,
             Self::Export(command) => command.json,
             Self::New(command) => command.json,
-            Self::Qemu(_) => false,
+            Self::Qemu(_) | Self::Shell(_) => false,
             Self::Rotor(command) => command.json,
             Self::Balancing(command) => command.json,
             Self::Identify(command) => command.json,
@@ -116,6 +118,7 @@ impl Command {
             Self::Cosim(command) => command.execute(),
             Self::Replay(command) => command.execute(),
             Self::Setup(command) => command.execute(),
+            Self::Shell(command) => command.execute(),
             Self::Simulate(command) => command.execute(),
             Self::Watch(command) => command.execute(),
         }

@@ -1,5 +1,6 @@
 //! `cargo driveline design`: observer and governor of a machine.
 
+mod crossings;
 mod linear;
 mod page;
 mod responses;

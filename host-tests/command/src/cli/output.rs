@@ -17,10 +17,16 @@ pub fn say(text: impl std::fmt::Display) {
 /// Standard output could not be written.
 pub static UNSAID: AtomicBool = AtomicBool::new(false);
 
-/// Writes JSON to standard output.
+/// Version of the keys in the JSON: a key that goes, or changes its meaning or its unit, raises it.
+const SCHEMA: u32 = 1;
+
+/// Writes JSON to standard output, an object with the version of its keys first.
 pub fn say_json(value: &impl serde::Serialize) -> Result<(), Failure> {
     let text = serde_json::to_string_pretty(value)
         .map_err(|error| Failure::failed(format!("the result cannot be written as JSON: {error}")))?;
-    say(text);
+    match text.strip_prefix("{\n") {
+        Some(rest) => say(format_args!("{{\n  \"schema\": {SCHEMA},\n{rest}")),
+        None => say(text),
+    }
     Ok(())
 }

@@ -32,11 +32,37 @@ fn the_installed_commands_are_the_designers() {
         "cosim",
         "replay",
         "setup",
+        "shell",
         "simulate",
         "watch",
         "help",
     ];
     assert_eq!(names, expected, "{help}");
+}
+
+/// Completions and manual page name every command and the options of one; JSON has the version of its keys.
+#[test]
+fn a_shell_completes_every_command() {
+    let run = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+        out(&command.arg("driveline").args(arguments).output().unwrap())
+    };
+    for form in ["bash", "elvish", "fish", "zsh", "man"] {
+        let printed = run(&["shell", form]);
+        for word in ["design", "campaign", "balancing", "watch"] {
+            assert!(printed.contains(word), "{form} has no {word}");
+        }
+        assert!(form == "man" || printed.contains("vibration-limit"), "{form} has no option of export");
+    }
+    // of a shell that is there
+    let ask = "COMP_WORDS=(cargo-driveline des); COMP_CWORD=1; registered=$(complete -p cargo-driveline)\n\
+        registered=${registered#*-F }; ${registered%% *} cargo-driveline des cargo-driveline\n\
+        echo \"found ${COMPREPLY[*]}\"";
+    let script = format!("{}\n{ask}", run(&["shell", "bash"]));
+    let completed = Command::new("bash").args(["-c", &script]).output().unwrap();
+    assert!(out(&completed).contains("found design"), "{completed:?}");
+    let json: serde_json::Value = serde_json::from_str(&run(&["example", "hoist", "--json"])).unwrap();
+    assert_eq!(json["schema"], 1);
 }
 
 /// In a folder of nothing: what a file is needed for gets it from the program, what a clone is needed for says so.

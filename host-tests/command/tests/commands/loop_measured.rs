@@ -274,9 +274,9 @@ fn compared(name: &str, text: &str, body: &Body, is_fixed: bool) -> [f64; 4] {
     lines.sort_unstable();
     lines.dedup();
 
-    // all sines together stay below a third of the largest torque
+    // all sines together stay below a third of the largest torque, and far above a unit of fixed point
     let limit = parse("machine", text).unwrap().rating().torque_limit.0;
-    let size = 0.01 * limit / (lines.len() as f64).sqrt();
+    let size = 0.05 * limit / (lines.len() as f64).sqrt();
     let drive = || if is_fixed { fixed(text) } else { single(text) };
     let found = measured(body, 1.0 / rate, ticks, &lines, size, drive());
     let found: Vec<(f64, Complex<f64>)> =

@@ -6,6 +6,9 @@ const WIDTH: f64 = 1080.0;
 const FRAME: [f64; 4] = [78.0, 30.0, WIDTH - 24.0, 400.0];
 const HEIGHT: f64 = FRAME[3] + 46.0;
 
+/// Range of values over their size below which they are a ripple.
+const RIPPLE: f64 = 0.2;
+
 /// A curve: its class in the style (`truth`, `s0` to `s5`), and its values over the common axis; what is not finite
 /// breaks it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -85,10 +88,14 @@ impl Lines {
         svg.finish(&self.label)
     }
 
-    /// With zero on it; a frequency response's axis spans its values alone.
+    /// With zero on it, unless it would flatten them: a ripple fills its plot, and so does a frequency response.
     fn linear(&self, values: impl Iterator<Item = f64>) -> Scale {
-        let zero = (!self.decades).then_some(0.0);
-        Scale::linear(values.chain(zero), FRAME[3], FRAME[1])
+        let values: Vec<f64> = values.collect();
+        let ends = values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(*v), b.max(*v)]);
+        let height = ends[1] - ends[0];
+        let is_ripple = height > 0.0 && height < RIPPLE * ends[0].abs().max(ends[1].abs());
+        let zero = (!self.decades && !is_ripple).then_some(0.0);
+        Scale::linear(values.into_iter().chain(zero), FRAME[3], FRAME[1])
     }
 
     fn draw_marks(&self, svg: &mut Svg, x: Scale) {
@@ -140,4 +147,34 @@ pub fn over_time(time: &[f64], drawn: &[Line], quantity: &str, marks: &[f64]) ->
         ..Lines::default()
     }
     .draw()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::over_time;
+    use crate::chart::Line;
+
+    /// The height that a wave of so much about 100 takes of its plot (370 units).
+    fn height(share: f64) -> f64 {
+        let time: Vec<f64> = (0..200).map(f64::from).collect();
+        let values = time.iter().map(|at| 100.0 + 100.0 * share * at.sin()).collect();
+        let svg = over_time(&time, &[Line { name: "a".into(), class: "s0".into(), values }], "speed", &[]);
+        let path = svg.split(r#"d="M"#).nth(1).unwrap().split('"').next().unwrap();
+        // a start, then relative steps, in tenths of a unit
+        let mut steps = path.split('l').map(|step| step.split(' ').nth(1).unwrap().parse::<f64>().unwrap());
+        let mut at = steps.next().unwrap();
+        let (mut least, mut most) = (at, at);
+        for step in steps {
+            at += step;
+            (least, most) = (least.min(at), most.max(at));
+        }
+        (most - least) / 10.0
+    }
+
+    #[test]
+    fn a_ripple_fills_its_plot() {
+        assert!(height(0.02) > 300.0, "{}", height(0.02));
+        // what goes through much of its range is seen from zero
+        assert!(height(0.5) < 300.0, "{}", height(0.5));
+    }
 }

@@ -24,7 +24,8 @@ for (const group of document.querySelectorAll("svg g.plot")) {
   const named = (wanted) => [...names].find((span) => wanted.every((one) => span.querySelector("path").classList.contains(one)))?.textContent;
   const curves = [...group.querySelectorAll("path.curve,path.truth,path.estimate")].map((path) => {
     const wanted = [...path.classList];
-    return { path, name: named(wanted.filter((one) => one !== "curve")) ?? "", points: points(path) };
+    const found = points(path), turns = found.some((point, k) => k > 0 && !point[2] && point[0] < found[k - 1][0]);
+    return { name: named(wanted.filter((one) => one !== "curve")) ?? "", points: found, turns };
   });
   if (!curves.some((curve) => curve.points.length > 1)) continue;
 
@@ -38,14 +39,18 @@ for (const group of document.querySelectorAll("svg g.plot")) {
   const back = ([px, py]) => [(px - shown[1]) / shown[0], (py - shown[3]) / shown[2]];
   const number = (value) => value === 0 ? "0" : Math.abs(value) >= 1e6 || Math.abs(value) < 1e-4 ? value.toExponential(3) : String(+value.toPrecision(4));
 
-  const clip = make("clipPath"), inside = make("rect"), outer = make("g"), cursor = make("line"), chosen = make("rect");
-  clip.id = `clip${document.querySelectorAll("clipPath").length}`;
-  for (const [key, value] of [["x", left], ["y", top], ["width", right - left], ["height", bottom - top]]) inside.setAttribute(key, value);
-  clip.append(inside);
-  outer.setAttribute("clip-path", `url(#${clip.id})`);
+  const outer = make("g"), cursor = make("line"), chosen = make("rect");
+  const corners = [[left, top], [right, top], [right, bottom], [left, bottom]].map((corner) => `${corner[0]}px ${corner[1]}px`);
+  outer.style.clipPath = `polygon(${corners}) view-box`;
   group.replaceWith(outer);
   outer.append(group, chosen, cursor);
-  svg.prepend(clip);
+  // marks beside the plot stay where they are: in a zoomed one others take their place
+  for (const mark of svg.querySelectorAll(":scope > line.mark")) {
+    if (mark.getAttribute("x1") !== mark.getAttribute("x2")) continue;
+    const line = mark.cloneNode();
+    line.classList.add("moved");
+    group.append(line);
+  }
   cursor.classList.add("edge");
   chosen.classList.add("band");
   const values = document.createElement("output");
@@ -77,6 +82,8 @@ for (const group of document.querySelectorAll("svg g.plot")) {
   const show = (next) => {
     shown = next;
     group.setAttribute("transform", `matrix(${shown[0]} 0 0 ${shown[2]} ${shown[1]} ${shown[3]})`);
+    group.classList.toggle("zoomed", shown[0] !== 1 || shown[2] !== 1);
+    svg.classList.toggle("beside", svg.querySelector(".zoomed") !== null);
     // a marker keeps its shape
     for (const mark of group.querySelectorAll("path.point")) {
       mark.setAttribute("transform", mark.getAttribute("transform").replace(/ scale.*|$/, ` scale(${1 / shown[0]} ${1 / shown[2]})`));
@@ -86,9 +93,8 @@ for (const group of document.querySelectorAll("svg g.plot")) {
   // of each curve the point beneath the cursor; of one that turns back the nearest
   const read = (place) => {
     const [px, py] = back(place), found = [];
-    for (const { name, points } of curves) {
+    for (const { name, points, turns } of curves) {
       let best = null, least = Infinity;
-      const turns = points.some((point, k) => k > 0 && !point[2] && point[0] < points[k - 1][0]);
       points.forEach((point, k) => {
         const before = points[k - 1];
         if (!turns && before && !point[2] && before[0] <= px && px <= point[0]) {
@@ -125,10 +131,11 @@ for (const group of document.querySelectorAll("svg g.plot")) {
     const [low, high] = [back(begun)[0], back(to)[0]].sort((a, b) => a - b), scale = (right - left) / (high - low);
     // the values in this part fill the plot
     const seen = curves.flatMap((curve) => curve.points.filter((point) => point[0] >= low && point[0] <= high).map((point) => point[1]));
-    const [least, most] = [Math.min(...seen), Math.max(...seen)], tall = Math.max(most - least, 0.2);
-    const rise = seen.length ? 0.9 * (bottom - top) / tall : shown[2];
-    const middle = seen.length ? (top + bottom) / 2 - rise * (least + most) / 2 : shown[3];
-    show([scale, left - scale * low, rise, middle]);
+    const [least, most] = [Math.min(...seen), Math.max(...seen)];
+    let [rise, middle] = [0.9 * (bottom - top) / Math.max(most - least, 0.2), (least + most) / 2];
+    // a plane keeps its circles round
+    if (!seen.length || curves.some((curve) => curve.turns)) [rise, middle] = [scale, (back(begun)[1] + back(to)[1]) / 2];
+    show([scale, left - scale * low, rise, (top + bottom) / 2 - rise * middle]);
   });
   svg.addEventListener("dblclick", (event) => { if (isIn(at(event))) show([1, 0, 1, 0]); });
 }

@@ -39,7 +39,8 @@ fn names_are_escaped() {
     report.notes.push(bad);
     let page = report.page();
     assert_sound(&page);
-    assert!(!page.contains("<script"));
+    // the viewer's is the only one
+    assert!(page.matches("<script").count() == 1 && !page.contains("<script>alert"));
 }
 
 #[test]

@@ -72,8 +72,8 @@ fn figures(responses: &Responses) -> Vec<Figure> {
     let mut figures = vec![
         named(
             "The loop",
-            "Its response where it is cut, up to half the rate. The band holds all machines within the tolerances, \
-             with two masses; marks are where the nominal gain passes 1.",
+            "Its response where it is cut, up to half the rate. The band holds the corners of the tolerances, with two \
+             masses; marks are where the nominal gain passes 1.",
             both.clone(),
             bode(responses, [&nominal.open, &drawn.open], Some(&responses.open_within), None),
         ),

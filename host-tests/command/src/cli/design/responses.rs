@@ -8,6 +8,7 @@ use driveline::machine::TwoMass;
 use nalgebra::Complex;
 use serde::Serialize;
 
+use super::crossings::{Crossing, Pole, crossings, poles};
 use super::linear::{Body, Entry, Linear, Observer};
 use crate::machine_file::MachineFile;
 use crate::machine_file::designs::Designs;
@@ -21,6 +22,8 @@ const POINTS: usize = 800;
 /// Points about each resonance, and how far they reach.
 const ABOUT: usize = 60;
 const REACH: f64 = 0.1;
+/// Highest frequency, over half the rate, where a sampled response has its zeros.
+const HIGHEST: f64 = 0.98;
 /// Most points of a step.
 const SHOWN: usize = 1_000;
 /// Steps last so many radians of the speed's natural frequency.
@@ -71,32 +74,6 @@ impl Range {
         let curve = |better| Curve { gain: over(|c| &c.gain, better), phase: over(|c| &c.phase, better) };
         Self { least: curve(f64::min), most: curve(f64::max) }
     }
-}
-
-/// A crossing of the loop's response: of the unit circle, or of the negative real axis.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Crossing {
-    /// Frequency (Hz).
-    pub hz: f64,
-    /// Of the unit circle: the phase to -180 degrees (degrees), and the dead time more that has as much (ms).
-    pub phase_margin: Option<f64>,
-    /// As above.
-    pub delay_margin: Option<f64>,
-    /// Of the negative real axis: the gain that is missing to 1 (dB).
-    pub gain_margin: Option<f64>,
-}
-
-/// A pole of the closed loop.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Pole {
-    /// In the plane of z.
-    pub re: f64,
-    /// As above.
-    pub im: f64,
-    /// Natural frequency (Hz), of `ln(z)` over a tick.
-    pub hz: f64,
-    /// Damping ratio.
-    pub damping_ratio: f64,
 }
 
 /// Course of a step: per rad/s of the setpoint, or per N m of load torque.
@@ -175,7 +152,7 @@ pub struct Observed {
 pub struct Responses {
     /// Where the loop is cut, in words.
     pub cut: &'static str,
-    /// Frequencies (Hz), up to half the rate.
+    /// Frequencies (Hz), up to 0.98 of half the rate.
     pub hz: Vec<f64>,
     /// The machine as the file has it, with all its vibrations.
     pub nominal: One,
@@ -232,7 +209,7 @@ impl Responses {
             late: false,
         };
         let slowest = 1e-2 * speed_loop.integral / speed_loop.proportional;
-        let frequencies = frequencies(slowest, PI / period, two.antiresonance(), &nominal.body);
+        let frequencies = frequencies(slowest, HIGHEST * PI / period, two.antiresonance(), &nominal.body);
         let within: Vec<(u32, InLoop)> = (0..4 * tolerance.machines())
             .map(|index| {
                 let machine = tolerance.machine(two, index / 4);
@@ -295,7 +272,7 @@ impl One {
         let open: Vec<Complex<f64>> = frequencies.iter().map(|&at| one.open(at)).collect();
         Self {
             plant: Curve::of(&mobility(&one.body, frequencies)),
-            crossings: crossings(one, frequencies, &open),
+            crossings: crossings(|at| one.open(at), frequencies, &open),
             distance: short(distance(&open)),
             real: open.iter().map(|value| short(value.re)).collect(),
             imaginary: open.iter().map(|value| short(value.im)).collect(),
@@ -339,7 +316,7 @@ impl Observed {
 }
 
 /// Six digits, as the arrays are written.
-fn short(value: f64) -> f64 {
+pub fn short(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
@@ -351,10 +328,10 @@ fn distance(open: &[Complex<f64>]) -> f64 {
     open.iter().map(|value| (value + 1.0).norm()).fold(f64::INFINITY, f64::min)
 }
 
-/// Frequencies (rad/s) from the slowest to half the rate, denser about the antiresonance, the resonances and on their
+/// Frequencies (rad/s) from the slowest to the highest, denser about the antiresonance, the resonances and on their
 /// flanks.
-fn frequencies(slowest: f64, nyquist: f64, antiresonance: f64, body: &Body) -> Vec<f64> {
-    let even = (0..POINTS).map(|point| slowest * (nyquist / slowest).powf(point as f64 / (POINTS - 1) as f64));
+fn frequencies(slowest: f64, highest: f64, antiresonance: f64, body: &Body) -> Vec<f64> {
+    let even = (0..POINTS).map(|point| slowest * (highest / slowest).powf(point as f64 / (POINTS - 1) as f64));
     let mut all: Vec<f64> = even.collect();
     for [frequency, damping] in body.resonances().chain([[antiresonance, 0.0]]) {
         let share = |point: usize| 1.0 - REACH + 2.0 * REACH * point as f64 / ABOUT as f64;
@@ -362,73 +339,8 @@ fn frequencies(slowest: f64, nyquist: f64, antiresonance: f64, body: &Body) -> V
         let widths = [0.0, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0];
         all.extend(widths.into_iter().flat_map(|n| [frequency - n * damping, frequency + n * damping]));
     }
-    all.retain(|at| (slowest..=nyquist).contains(at));
+    all.retain(|at| (slowest..=highest).contains(at));
     all.sort_by(f64::total_cmp);
     all.dedup();
     all
-}
-
-/// Crossings of the unit circle and of the negative real axis, in the order of their frequency.
-fn crossings(one: &InLoop, frequencies: &[f64], open: &[Complex<f64>]) -> Vec<Crossing> {
-    let mut found = Vec::new();
-    let is_low = |value: Complex<f64>| value.norm() < 1.0;
-    let is_below = |value: Complex<f64>| value.im < 0.0;
-    for (ends, values) in frequencies.windows(2).zip(open.windows(2)) {
-        let of = |side: &dyn Fn(Complex<f64>) -> bool| {
-            let (mut low, mut high) = (ends[0], ends[1]);
-            for _ in 0..50 {
-                let middle = 0.5 * (low + high);
-                if side(one.open(middle)) == side(values[0]) { low = middle } else { high = middle }
-            }
-            let at = 0.5 * (low + high);
-            (at, one.open(at))
-        };
-        let none = Crossing { hz: 0.0, phase_margin: None, delay_margin: None, gain_margin: None };
-        if is_low(values[0]) != is_low(values[1]) {
-            let (at, value) = of(&is_low);
-            let (phase, lag) = ((-value).arg(), value.arg() + PI);
-            found.push(Crossing {
-                hz: short(at / TAU),
-                phase_margin: Some(short(phase.to_degrees())),
-                delay_margin: Some(short(1e3 * lag / at)),
-                ..none
-            });
-        }
-        if is_below(values[0]) != is_below(values[1]) {
-            let (at, value) = of(&is_below);
-            // a change of sign through the positive axis, or through a pole, is none
-            if value.re < 0.0 && value.im.abs() < 1e-3 * -value.re {
-                found.push(Crossing {
-                    hz: short(at / TAU),
-                    gain_margin: Some(short(-20.0 * value.norm().log10())),
-                    ..none
-                });
-            }
-        }
-    }
-    found
-}
-
-/// Poles of the closed loop, the slowest first.
-fn poles(linear: &Linear, period: f64) -> Vec<Pole> {
-    let mut poles = linear.poles().unwrap_or_default();
-    // a speed loop leaves the angle free
-    let free = (0..poles.len()).min_by(|&a, &b| (poles[a] - 1.0).norm().total_cmp(&(poles[b] - 1.0).norm()));
-    if let Some(free) = free {
-        poles.swap_remove(free);
-    }
-    // a conjugate is no other pole, and a delay's poles at 0 have no frequency
-    poles.retain(|pole| pole.im >= 0.0 && pole.norm() > 1e-6);
-    let pole = |pole: Complex<f64>| {
-        let s = pole.ln() / period;
-        Pole {
-            re: short(pole.re),
-            im: short(pole.im),
-            hz: short(s.norm() / TAU),
-            damping_ratio: short(-s.re / s.norm()),
-        }
-    };
-    let mut poles: Vec<Pole> = poles.into_iter().map(pole).collect();
-    poles.sort_by(|a, b| a.hz.total_cmp(&b.hz));
-    poles
 }
