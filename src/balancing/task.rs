@@ -187,10 +187,10 @@ where
     ///
     /// # Errors
     /// Head or memory failed, or there are no samples; the next call goes on.
-    pub fn run<N, O, G, F, B, const EDGES: usize, const SEAL: i32>(
+    pub fn run<N, O, G, F, B, const EDGES: usize>(
         &mut self,
-        drive: &mut Drive<N, O, G, F, B, SEAL>,
-        config: &ConfigOf<Drive<N, O, G, F, B, SEAL>>,
+        drive: &mut Drive<N, O, G, F, B>,
+        config: &ConfigOf<Drive<N, O, G, F, B>>,
     ) -> Result<BalancingState, BalancingFault<H::Error, K::Error>>
     where
         N: VibrationNumber,

@@ -4,7 +4,7 @@
 //! such a state and gives the same commands, bit for bit, on the desk as on the board. At the first of the tripping
 //! faults the record is kept as it is, with the fault, until [`Recorded::release`].
 
-use super::{Composition, ConfigOf, VibrationOf};
+use super::{Composition, ConfigOf, GovernorConfigOf, ObserverConfigOf, VibrationOf};
 use crate::axis::TRIPPING;
 use crate::fault::Faults;
 use crate::number::Number;
@@ -204,6 +204,18 @@ impl<D: Composition + Clone, const K: usize> Composition for Recorded<D, K> {
 
     fn switch(&mut self, from: &Self::Config, to: &Self::Config) {
         self.drive_mut().switch(from, to);
+    }
+
+    fn parts(config: &mut Self::Config) -> (&mut ObserverConfigOf<Self>, &mut GovernorConfigOf<Self>) {
+        D::parts(config)
+    }
+
+    fn observer(&self) -> &Self::Observer {
+        self.drive.observer()
+    }
+
+    fn observer_mut(&mut self) -> &mut Self::Observer {
+        self.drive_mut().observer_mut()
     }
 
     #[inline(always)]

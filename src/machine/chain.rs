@@ -397,6 +397,12 @@ impl Chain {
         self.ratio
     }
 
+    /// Travel of the load per motor angle (m/rad); 0 without a drum.
+    #[must_use]
+    pub const fn travel_per_angle(&self) -> f64 {
+        self.travel
+    }
+
     /// Product of the efficiencies while the motor drives.
     #[must_use]
     pub const fn efficiency(&self) -> f64 {

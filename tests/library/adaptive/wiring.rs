@@ -144,7 +144,7 @@ fn what_is_learnt_stays_when_the_gains_change() {
             }
         }
         let [learned, design] = [&drive, &plain].map(|drive| drive.constants().observer);
-        assert_eq!(learned.friction, 0.08);
+        assert_eq!(learned.friction.share, 0.08);
         assert!((learned.observer.motor * 1.1 / design.observer.motor - 1.0).abs() < 1e-6, "{load} kg, {rope} m");
         assert_eq!((drive.rope(), drive.load()), (rope, f32::clamp(load, 400.0, 11_000.0)));
         assert_eq!(drive.constants().governor, plain.constants().governor);
