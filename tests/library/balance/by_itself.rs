@@ -334,7 +334,8 @@ fn starts_balance_themselves() {
     starts(501..=503, &KINDS);
 }
 
-/// The task's constants were chosen on seeds 1 to 100.
+/// The task's constants were chosen on seeds 1 to 100. It fails: start 530 with changes of the rotor passes 1.35 times,
+/// which is not mended yet; the 629 before it keep every limit. The kinds after it did not run.
 #[test]
 #[ignore = "minutes"]
 fn two_hundred_starts_of_each_kind() {
