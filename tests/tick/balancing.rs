@@ -91,7 +91,9 @@ fn the_second_move_is_on_the_other_side() {
     let most = influence.norm_sqr().sqrt() + 4.0 * deviation;
     let to = set(action);
     assert!((to + re(3.95 / most)).norm_sqr() < 1e-16, "{to} {}", 3.95 / most);
-    assert_eq!(run.level(), Some((re(10.0) + change).norm_sqr().sqrt() / 10.0));
+    let level = (re(10.0) + change).norm_sqr().sqrt() / 10.0;
+    // roundings of two squares, their sum and a root
+    assert!((run.level().unwrap() - level).abs() < 4.0 * f64::EPSILON, "{:?} {level}", run.level());
 }
 
 /// Readings of a machine whose influence is `a` from 10 on, until it holds; all its moves and what it ends at.
