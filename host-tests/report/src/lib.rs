@@ -1,7 +1,7 @@
 //! The report of a run: a page with plots for people, a table for the terminal, JSON for programs.
 //!
 //! The page is one file that opens from the disk: style and plots stand in it, and nothing is fetched. Plots are SVG
-//! written by [`svg`], coloured by the page's style, so that they follow the reader's light or dark theme.
+//! written by the module `svg`, coloured by the page's style, so that they follow the reader's light or dark theme.
 //!
 //! | term | meaning |
 //! |---|---|
