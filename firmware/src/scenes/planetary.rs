@@ -5,9 +5,7 @@
 //! frame size 250. The drum's shaft is 90 mm thick and 1.2 m long. Drum and its share of the belt have 55 kg m2.
 
 use driveline::configure::{Machine, Rating};
-use driveline::design::{
-    Disturbance, Encoder, RigidDesign, SpeedLoopTuning,
-};
+use driveline::design::{Disturbance, Encoder, RigidDesign, SpeedLoopTuning};
 use driveline::machine::{
     Chain, Damping, Diameter, Efficiency, Inertia, Length, Mass, Planetary, Section, ShearModulus, Speed, Torque,
 };

@@ -20,8 +20,8 @@
 
 use driveline::configure::{HasBacklash, Machine, Rating};
 use driveline::design::{
-    BacklashTakeUpDesign, BacklashTakeUpTuning, BacklashTuning, Disturbance, Encoder,
-    RigidDesign, SpeedLoopDesign, SpeedLoopTuning,
+    BacklashTakeUpDesign, BacklashTakeUpTuning, BacklashTuning, Disturbance, Encoder, RigidDesign, SpeedLoopDesign,
+    SpeedLoopTuning,
 };
 use driveline::governor::{SpeedGovernor, SymmetricLimit};
 use driveline::machine::{

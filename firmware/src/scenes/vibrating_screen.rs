@@ -11,10 +11,7 @@
 //! speed gravity pulls on the unbalance once a turn, and the box gives and takes energy twice a turn.
 
 use driveline::configure::{HasBarredSpeeds, Machine, Rating};
-use driveline::design::{
-    BarredSpeeds, Disturbance, Encoder, SpeedLoopDesign, SpeedLoopTuning,
-    USUAL_MARGIN,
-};
+use driveline::design::{BarredSpeeds, Disturbance, Encoder, SpeedLoopDesign, SpeedLoopTuning, USUAL_MARGIN};
 use driveline::governor::{Barred, SpeedGovernor};
 use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Section, ShearModulus, Speed, Torque};
 use driveline::math::sqrt;

@@ -62,11 +62,7 @@ pub fn uncoupled(by: &Departure) -> Result<Scenario, PlantError> {
     actions.extend((0..).zip(&speeds).map(|(k, speed)| (0.2 + 2.5 * f64::from(k), Action::Setpoint(*speed))));
     let end = 0.2 + 2.5 * speeds.len() as f64;
     actions.extend([(end, Action::Panel(panel::NO_LOAD, 0.0)), (end, Action::Setpoint(0.0))]);
-    Ok(Scenario {
-        actions,
-        duration: end + 1.0,
-        ..Scenario::of("spindles uncoupled", plant)
-    })
+    Ok(Scenario { actions, duration: end + 1.0, ..Scenario::of("spindles uncoupled", plant) })
 }
 
 /// The mill as it is.

@@ -93,11 +93,7 @@ fn learning(
         time += lasts;
     }
     actions.extend([(time, Action::Panel(key, 0.0)), (time, Action::Setpoint(0.0))]);
-    Ok(Scenario {
-        actions,
-        duration: time + 15.0,
-        ..Scenario::of(name, plant)
-    })
+    Ok(Scenario { actions, duration: time + 15.0, ..Scenario::of(name, plant) })
 }
 
 /// The crane as it is.

@@ -84,7 +84,10 @@ pub fn machine() -> Result<Machine, PlantError> {
         actions: [&RELEASE[..], &[hoisting, (6.0, Action::Setpoint(-Hoist::<10_000>::RATING.speed.0))]].concat(),
         duration: 12.0,
         marks: vec![(0.2, "brake opens"), (4.0, "half a load more"), (6.0, "reversal")],
-        ..Scenario::of("pretensioned start, half a load more, lowering", hanging(LoadProgram::table(&[(4.0, 0.0), (5.0, 0.5 * WEIGHT)]), by)?)
+        ..Scenario::of(
+            "pretensioned start, half a load more, lowering",
+            hanging(LoadProgram::table(&[(4.0, 0.0), (5.0, 0.5 * WEIGHT)]), by)?,
+        )
     };
     let slack = Scenario {
         // On the ground: what holds the load until the rope carries its weight, and is its weight once it is lifted.
