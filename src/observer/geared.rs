@@ -63,13 +63,9 @@ impl<N: Number<Coefficient: Magnitude>> GearFriction<N> {
 }
 
 impl<N: Number> GearFriction<N> {
-    /// A torque behind the gear, as the observer finds it: kT, by the series of 1/(1 - excess).
+    /// A torque behind the gear, as the observer finds it: kT, by two terms of the series of 1/(1 - excess).
     fn found(&self, torque: N) -> N {
-        let mut found = torque;
-        for _ in 0..24 {
-            found = torque + found.times(self.excess);
-        }
-        found
+        torque + (torque + torque.times(self.excess)).times(self.excess)
     }
 }
 

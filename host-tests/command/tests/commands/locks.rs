@@ -152,9 +152,9 @@ fn a_gear_that_would_stop_its_load_at_once_is_refused() {
     assert!(ended.status.code() == Some(2) && said.contains("`rotor + load` would stop at once"), "{said}");
 }
 
-/// The hoist's drive FMU deducts the mean of the losses of both directions, so that it reads the rope's torque high by
-/// the mean of the efficiency and its inverse, less one: 0.19 % with 0.94. In each 50 ms within a fifth of that, once
-/// the gear turns; over all ticks within 0.2 % of the weight.
+/// Drive and machine mean the same torque: that of the rope, behind the gear's loss. In each 50 ms once the gear turns
+/// within 0.04 %, a fifth of what the loss would leave that is taken for the same both ways; over all ticks, the start of
+/// the lift among them, within 0.1 % of the weight.
 #[test]
 fn the_hoists_two_fmus_agree_on_the_torque_of_its_rope() {
     let place = tempfile::tempdir().unwrap();
@@ -166,15 +166,15 @@ fn the_hoists_two_fmus_agree_on_the_torque_of_its_rope() {
     let [estimated, rope, load] =
         ["drive.shaft_torque", "machine.shaft_torque[2]", "drive.load_torque"].map(|name| column(&run, name));
     let errors: Vec<f64> = estimated.iter().zip(&rope).map(|(estimate, torque)| estimate / torque - 1.0).collect();
-    let bias = 0.5 * (0.94 + 1.0 / 0.94) - 1.0;
     for window in errors[2000..].chunks(500) {
         let mean = window.iter().sum::<f64>() / window.len() as f64;
-        assert!((mean - bias).abs() < 0.2 * bias, "{mean} for {bias}");
+        assert!(mean.abs() < 4e-4, "{mean}");
     }
     let squares: f64 = estimated.iter().zip(&rope).map(|(estimate, torque)| (estimate - torque).powi(2)).sum();
     let rms = (squares / rope.len() as f64).sqrt();
     // the shaft carries the weight at the start
-    assert!(rms < 0.002 * rope[0], "{rms} N m of {}", rope[0]);
+    println!("{rms} N m of {}", rope[0]);
+    assert!(rms < 0.001 * rope[0], "{rms} N m of {}", rope[0]);
     assert!(load.iter().all(|torque| (torque / rope[0] - 1.0).abs() < 0.03));
 }
 
