@@ -103,6 +103,7 @@ pub struct AdaptiveConfig<C, S, M> {
 /// A drive `D` of the machine `M` that adapts itself to its load and to what it learns.
 ///
 /// It is a [`Composition`] as the drive inside is, and takes its place in an [`Axis`](crate::axis::Axis).
+// Not logged: it holds the drive, whose estimates are; `learnt` gives what was learnt.
 pub struct Adaptive<M, D: Composition, S: Part<D::Number> = (), L: Part<D::Number> = ()> {
     drive: D,
     /// The working copy of its constants.
@@ -122,8 +123,11 @@ pub struct Adaptive<M, D: Composition, S: Part<D::Number> = (), L: Part<D::Numbe
 /// In the upper half of the count of ticks: the brake held, or the axis was tripped. The faults of the ticks lie below
 /// it. A count that overflows looks like a fault.
 const INTERRUPTED: u32 = 1 << 31;
-/// Turns the bits of faults, 0 to 5 and 24 to 30, into the upper half of a word, below its top.
-const TURNED: u32 = 25;
+
+/// The bits of faults, 0 to 13 and 24 to 30, in the upper half of a word, below its top.
+const fn flagged(faults: Faults) -> u32 {
+    faults.bits() << 16 | faults.bits() & 0x7f00_0000
+}
 
 /// Steps of the learners in a second.
 const STEPS: u32 = 100;
@@ -156,7 +160,7 @@ where
     /// Counts a tick with its faults.
     #[inline(always)]
     fn count(&mut self, faults: Faults) {
-        self.passed = self.passed.wrapping_add(1) | faults.bits().rotate_left(TURNED);
+        self.passed = self.passed.wrapping_add(1) | flagged(faults);
     }
 
     /// Everything that is slower than a tick, between two ticks: counts the rope, weighs the load, learns, and takes
@@ -256,5 +260,23 @@ where
         let (drive, config) = (self.drive.clone(), self.config.clone());
         let (learners, schedule) = (self.learners.clone(), self.schedule.clone());
         Adaptive { drive, config, learners, passed, ticks, interrupted, load, schedule, machine }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{INTERRUPTED, flagged};
+    use crate::fault::Faults;
+
+    /// Any fault is seen above the count of ticks, and none is counted as ticks.
+    #[test]
+    fn no_fault_is_counted_as_ticks() {
+        let mut seen = Faults::NONE;
+        for (fault, name) in Faults::NAMES {
+            let bits = flagged(fault);
+            assert!(bits > 0xffff && bits & (0xffff | INTERRUPTED) == 0, "{name}: {bits:x}");
+            seen |= fault;
+        }
+        assert_eq!(seen.bits().count_ones(), 21);
     }
 }
