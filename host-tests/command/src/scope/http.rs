@@ -232,12 +232,24 @@ fn answer(head: Option<&[u8]>, scope: &Mutex<Scope>) -> Sending {
         "HTTP/1.1 {status} {}\r\nContent-Type: {kind}\r\n{length}Connection: close\r\nCache-Control: no-store\r\n\
          Content-Security-Policy: {policy}\r\nCross-Origin-Resource-Policy: same-origin\r\n\
          X-Content-Type-Options: nosniff\r\n\r\n{body}",
-        if status == 200 { "OK" } else { "Refused" }
+        reason(status)
     );
     Sending { bytes: text.into_bytes(), sent: 0, rest }
 }
 
 const CSV: &str = "text/csv; charset=utf-8";
+
+/// The reason phrases of RFC 9110 and RFC 6585.
+fn reason(status: u16) -> &'static str {
+    match status {
+        200 => "OK",
+        403 => "Forbidden",
+        404 => "Not Found",
+        405 => "Method Not Allowed",
+        431 => "Request Header Fields Too Large",
+        _ => "Bad Request",
+    }
+}
 
 fn wrong(status: u16, why: &str) -> Answer {
     (status, JSON, Body::Text(json!({ "error": why }).to_string()))
