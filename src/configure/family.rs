@@ -126,7 +126,8 @@ pub trait Family<const A: usize, const B: usize>: Machine {
 
 /// A hoist: a machine whose load and rope change. It is a [`Family`] by the inverse of both.
 ///
-/// [`Machine::CHAIN`] ends in a rope and a lifted mass; the other members are [`Chain::hoisting`](crate::machine::Chain::hoisting).
+/// [`Machine::CHAIN`] ends in a rope and a lifted mass; the other members are
+/// [`Chain::hoisting`](crate::machine::Chain::hoisting).
 pub trait HasLoadAndRope<const A: usize, const B: usize>: Machine {
     /// The least and the largest load, such as the empty hook and a tenth over the largest.
     const LOAD: [Mass; 2];

@@ -81,36 +81,9 @@ impl TwoMassDesign {
         }
     }
 
-    /// The estimate's error advances by the transition and is corrected by its first element times the gains. The load
-    /// rises by `load` in each of the first `rise` ticks.
     const fn largest_innovation(&self, motor: f64, load: f64, rise: u32) -> f64 {
-        let ([a, b, c, d], k, u) = (
-            [&self.transition.0[0], &self.transition.0[1], &self.transition.0[2], &self.transition.0[3]],
-            &self.gains,
-            &self.input,
-        );
-        let (mut e0, mut e1, mut e2, mut e3, mut e4) = (0.0, 0.0, 0.0, 0.0, 0.0);
-        let (mut largest, mut at, mut tick) = (0.0, 0, 0);
-        while tick < LONGEST && tick < rise + 64 + 8 * at {
-            if tick < rise {
-                e4 += load;
-            }
-            let innovation = a[0] * e0 + a[1] * e1 + a[2] * e2 + a[3] * e3 + a[4] * e4 + u[0] * motor;
-            let p1 = b[0] * e0 + b[1] * e1 + b[2] * e2 + b[3] * e3 + b[4] * e4 + u[1] * motor;
-            let p2 = c[0] * e0 + c[1] * e1 + c[2] * e2 + c[3] * e3 + c[4] * e4 + u[2] * motor;
-            let p3 = d[0] * e0 + d[1] * e1 + d[2] * e2 + d[3] * e3 + d[4] * e4 + u[3] * motor;
-            e0 = innovation - k[0] * innovation;
-            e1 = p1 - k[1] * innovation;
-            e2 = p2 - k[2] * innovation;
-            e3 = p3 - k[3] * innovation;
-            e4 -= k[4] * innovation;
-            tick += 1;
-            if innovation.abs() > largest {
-                largest = innovation.abs();
-                at = tick;
-            }
-        }
-        largest
+        let [a, b, c, d, _] = self.transition.0;
+        largest_innovation([a, b, c, d], self.gains, self.input, [motor, load], rise)
     }
 }
 
@@ -126,27 +99,46 @@ impl RigidDesign {
         }
     }
 
+    /// As two masses without a twist.
     const fn largest_innovation(&self, load: f64, rise: u32) -> f64 {
-        let ([a, b], k) = ([&self.transition.0[0], &self.transition.0[1]], &self.gains);
-        let (mut e0, mut e1, mut e2) = (0.0, 0.0, 0.0);
-        let (mut largest, mut at, mut tick) = (0.0, 0, 0);
-        while tick < LONGEST && tick < rise + 64 + 8 * at {
-            if tick < rise {
-                e2 += load;
-            }
-            let innovation = a[0] * e0 + a[1] * e1 + a[2] * e2;
-            let p1 = b[0] * e0 + b[1] * e1 + b[2] * e2;
-            e0 = innovation - k[0] * innovation;
-            e1 = p1 - k[1] * innovation;
-            e2 -= k[2] * innovation;
-            tick += 1;
-            if innovation.abs() > largest {
-                largest = innovation.abs();
-                at = tick;
-            }
-        }
-        largest
+        let ([[a0, a1, a2], [b0, b1, b2], _], [k0, k1, k2]) = (self.transition.0, self.gains);
+        let rows = [[a0, a1, 0.0, 0.0, a2], [b0, b1, 0.0, 0.0, b2], [0.0; 5], [0.0; 5]];
+        largest_innovation(rows, [k0, k1, 0.0, 0.0, k2], [0.0; 5], [0.0, load], rise)
     }
+}
+
+/// The estimate's error advances by the transition, whose last state stays, and is corrected by its first element times
+/// the gains `k`. The motor's torque acts by `u`; the load's rises in each of the first `rise` ticks.
+// Written out: the compiler's evaluation takes thousands of ticks.
+const fn largest_innovation(
+    [a, b, c, d]: [[f64; 5]; 4],
+    k: [f64; 5],
+    u: [f64; 5],
+    [motor, load]: [f64; 2],
+    rise: u32,
+) -> f64 {
+    let (mut e0, mut e1, mut e2, mut e3, mut e4) = (0.0, 0.0, 0.0, 0.0, 0.0);
+    let (mut largest, mut at, mut tick) = (0.0, 0, 0);
+    while tick < LONGEST && tick < rise + 64 + 8 * at {
+        if tick < rise {
+            e4 += load;
+        }
+        let innovation = a[0] * e0 + a[1] * e1 + a[2] * e2 + a[3] * e3 + a[4] * e4 + u[0] * motor;
+        let p1 = b[0] * e0 + b[1] * e1 + b[2] * e2 + b[3] * e3 + b[4] * e4 + u[1] * motor;
+        let p2 = c[0] * e0 + c[1] * e1 + c[2] * e2 + c[3] * e3 + c[4] * e4 + u[2] * motor;
+        let p3 = d[0] * e0 + d[1] * e1 + d[2] * e2 + d[3] * e3 + d[4] * e4 + u[3] * motor;
+        e0 = innovation - k[0] * innovation;
+        e1 = p1 - k[1] * innovation;
+        e2 = p2 - k[2] * innovation;
+        e3 = p3 - k[3] * innovation;
+        e4 -= k[4] * innovation;
+        tick += 1;
+        if innovation.abs() > largest {
+            largest = innovation.abs();
+            at = tick;
+        }
+    }
+    largest
 }
 
 impl Supervision {
@@ -162,7 +154,8 @@ impl Supervision {
     /// The limits of a machine.
     ///
     /// - innovation: the response to the error of the torque constant at the torque limit, the offset, and a twentieth
-    ///   of rated torque of friction, all at the motor, and to the step of the load, a quarter more; 0.15 counts and the encoder's interpolation error
+    ///   of rated torque of friction, all at the motor, and to the step of the load, a quarter more; 0.15 counts and the
+    ///   encoder's interpolation error
     /// - change of the load torque: these torques at the motor, and the part of the load's step within the average's
     ///   time, a quarter more
     /// - load torque: the torque limit, either way, and the error of the torque constant, and a twentieth more. With
