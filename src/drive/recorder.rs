@@ -14,9 +14,9 @@ use crate::sample::{Command, Estimate, Sample};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Kind {
-    /// A tick after so many that did not run.
     #[default]
     Tick,
+    /// A tick after so many that did not run.
     After(u32),
     /// Ticks that did not run, before a tick without an angle.
     MadeUp(u32),
@@ -78,8 +78,8 @@ impl<D: Composition + Clone, const K: usize> Recorded<D, K> {
 
     /// The drive, for actions between two ticks. It begins a new record, unless one is kept for a fault.
     pub fn drive_mut(&mut self) -> &mut D {
-        for block in &mut self.blocks {
-            block.length = if self.reason.is_none() { 0 } else { block.length };
+        if self.reason.is_none() {
+            self.begin();
         }
         &mut self.drive
     }
