@@ -18,6 +18,8 @@
 //! beyond the tolerance, are a change of the rotor: balancing begins again.
 
 mod design;
+mod moves;
+mod readings;
 mod state;
 
 use core::marker::PhantomData;
@@ -27,11 +29,10 @@ pub use state::{BalancingFault, BalancingState};
 
 use super::Phasors;
 use super::head::{BalancingHead, HeadPosition};
-use super::in_run::{AbortReason, Action, BalancingRecord, InRun, InRunConfig};
+use super::in_run::{BalancingRecord, InRun, InRunConfig};
 use super::memory::BalancingMemory;
-use super::reading::{PhasorsConfig, ReadingFault, Steadiness};
+use super::reading::PhasorsConfig;
 use super::scalar::{Complex, size, zero};
-use super::tolerance::Verdict;
 use crate::configure::{HasVibration, VibrationNumber};
 use crate::drive::{ConfigOf, Drive};
 use crate::fluctuation::Fluctuation;
@@ -39,31 +40,10 @@ use crate::governor::Governor;
 use crate::number::Part;
 use crate::observer::Observer;
 
-/// Deviation from the speed of the readings beyond which balancing begins anew.
-const SPEED_BAND: f32 = 0.05;
-/// Limits of a reading: a slow swing of the speed hardly changes a vibration, and the variance counts in each move.
-const STEADINESS: Steadiness = Steadiness { speed: 0.05, drift: 0.1, scatter: 0.1, floor: 0.0 };
-/// Share of the first vibration below which drift and scatter are taken of it: a balanced rotor's reading is noise.
-const FLOOR: f32 = 0.3;
-/// Readings in a row that are refused before the head goes back.
-const DOUBTS: u32 = 8;
-/// Good readings after an abort before it is tried again, and how often.
-const REST: u32 = 6;
-const RETRIES: u32 = 3;
-/// Growth of the vibration that is a change of the rotor, and readings that show it.
-const CHANGED: f32 = 1.5;
-const CHANGES: u32 = 2;
 /// Share of the capacity within which a head is at its weights.
 const NEAR: f32 = 0.01;
-/// Moves of a head without a sensor that may show no effect before that is believed; commands at power-up.
-const MISSED: u32 = 6;
+/// Commands at power-up to a head without a sensor.
 const COMMANDS: u32 = 3;
-/// Standard deviations that a reading has to change by to show a move.
-const SHOWN: f32 = 3.0;
-/// Share of the predicted change that a reading has to change by.
-const FOLLOWED: f32 = 0.4;
-/// Least standard deviation of a change, over the level.
-const LEAST: f32 = 0.001;
 /// Calls without a tick.
 const CALLS: u32 = 1_000_000;
 
@@ -318,225 +298,5 @@ where
     fn near(&self, a: &[Complex<f32>; PLANES], b: &[Complex<f32>; PLANES]) -> bool {
         let pairs = a.iter().zip(b).zip(&self.design.capacity);
         pairs.fold(true, |near, ((a, b), capacity)| near && size(*a - *b) <= NEAR * capacity)
-    }
-
-    fn moving(&mut self, to: [Complex<f32>; PLANES], ticks: u32) -> Result<(), BalancingFault<H::Error, K::Error>> {
-        self.state = BalancingState::Moving;
-        let late = ticks as f32 > self.design.travel * M::RATE_HZ as f32;
-        let position = self.head.position().map_err(BalancingFault::Head)?;
-        self.measured = position != HeadPosition::Unmeasured;
-        match position {
-            HeadPosition::At(at) if self.near(&at, &to) => self.arrive(),
-            HeadPosition::At(at) if late => {
-                // it has stuck: what it stands at counts
-                self.in_run.installed(&at);
-                self.state = BalancingState::HeadStuck;
-                self.arrive();
-            }
-            HeadPosition::Moving if late => {
-                self.state = BalancingState::HeadStuck;
-                self.phase = Phase::Command(to);
-            }
-            HeadPosition::Unmeasured if late && self.repeats > 0 => {
-                self.repeats -= 1;
-                self.phase = Phase::Command(to);
-            }
-            HeadPosition::Unmeasured if late => self.arrive(),
-            _ => {}
-        }
-        Ok(())
-    }
-
-    fn arrive(&mut self) {
-        self.phase = Phase::Settling;
-        self.begin = true;
-    }
-
-    fn read(&mut self) {
-        self.phase = Phase::Reading;
-        self.begin = true;
-    }
-
-    /// To other weights, or another reading with the same.
-    fn go(&mut self, to: [Complex<f32>; PLANES], from: [Complex<f32>; PLANES]) {
-        if to == from {
-            self.read();
-        } else {
-            self.in_run.installed(&to);
-            self.phase = Phase::Command(to);
-        }
-    }
-
-    /// Back to the weights of the record; what is known has to be confirmed again.
-    fn interrupt(&mut self) {
-        self.interrupted = true;
-        self.doubts = 0;
-        let from = *self.in_run.weights();
-        self.go(self.record.weights, from);
-    }
-
-    fn complete<N: VibrationNumber, const EDGES: usize>(
-        &mut self,
-        config: &PhasorsConfig<N, ROWS>,
-        phasors: &Phasors<ROWS, EDGES, N>,
-    ) -> Result<(), BalancingFault<H::Error, K::Error>> {
-        let position = self.head.position().map_err(BalancingFault::Head)?;
-        if let HeadPosition::At(at) = position
-            && !self.near(&at, self.in_run.weights())
-        {
-            // the head has moved by itself, or the stuck one has come loose
-            self.in_run.installed(&at);
-            self.arrive();
-            return Ok(());
-        }
-        let unit = N::vibration_unit::<M>();
-        let steadiness = Steadiness { floor: FLOOR * self.in_run.first_level() / unit, ..STEADINESS };
-        let (mut rows, mut variance, mut ticks) = ([zero(); ROWS], 0.0_f32, 0.0);
-        for (row, value) in rows.iter_mut().enumerate() {
-            match phasors.reading_within(config, row, &steadiness) {
-                Ok(reading) => {
-                    *value = Complex::from(reading.phasor.scaled(unit));
-                    variance = variance.max(reading.variance * unit * unit);
-                    ticks = reading.ticks;
-                }
-                Err(fault) => {
-                    self.doubt(fault);
-                    return Ok(());
-                }
-            }
-        }
-        self.doubts = 0;
-        self.take(&rows, variance, core::f32::consts::TAU * M::RATE_HZ as f32 / ticks);
-        if matches!(self.phase, Phase::Reading) { self.keep() } else { Ok(()) }
-    }
-
-    /// A refused reading.
-    fn doubt(&mut self, fault: ReadingFault) {
-        self.state = BalancingState::Waiting(fault);
-        self.doubts += 1;
-        if self.doubts < DOUBTS && fault != ReadingFault::Clipped {
-            return self.read();
-        }
-        if *self.in_run.weights() != self.record.weights {
-            self.state = BalancingState::Stopped(AbortReason::NoReading);
-            (self.rest, self.retries) = (REST, self.retries + 1);
-        }
-        self.interrupt();
-    }
-
-    /// A good reading at a speed (rad/s).
-    fn take(&mut self, reading: &[Complex<f32>; ROWS], variance: f32, speed: f32) {
-        let share = speed / self.design.rotor.speed;
-        if !(0.5..=1.1).contains(&share) {
-            self.state = BalancingState::OffSpeed;
-            return self.interrupt();
-        }
-        self.look_for_effect(reading, variance);
-        let from = *self.in_run.weights();
-        let off = self.record.speed > 0.0 && !((speed / self.record.speed - 1.0).abs() <= SPEED_BAND);
-        if (off || self.interrupted) && from != self.record.weights {
-            return self.interrupt();
-        }
-        if off || self.record.speed == 0.0 {
-            // the influence is that of another speed
-            if off && let Ok(in_run) = InRun::new(self.moves, ROWS, from) {
-                self.in_run = in_run;
-            }
-            self.record = BalancingRecord { speed, ..BalancingRecord::new(from) };
-            (self.held, self.rest, self.retries, self.interrupted) = (None, 0, 0, false);
-        }
-        let level = reading.iter().fold(0.0_f32, |most, value| most.max(size(*value)));
-        if core::mem::take(&mut self.interrupted) {
-            self.resume();
-        }
-        if let Some(held) = self.held {
-            let verdict = self.verdict(reading);
-            if !matches!(self.state, BalancingState::Stopped(_)) || verdict.is_some_and(|verdict| verdict.passed) {
-                self.state = BalancingState::Held(verdict);
-            }
-            let worse =
-                level > (CHANGED * held).max(self.design.quiet) && !verdict.is_some_and(|verdict| verdict.passed);
-            self.changes = if worse { self.changes + 1 } else { 0 };
-            if self.changes < CHANGES {
-                return self.read();
-            }
-            (self.held, self.changes, self.retries) = (None, 0, 0);
-            self.resume();
-        }
-        if self.rest > 0 {
-            self.rest -= 1;
-            if self.rest > 0 {
-                return self.read();
-            }
-            if self.retries > RETRIES {
-                self.held = Some(level);
-                return self.read();
-            }
-            self.resume();
-        }
-        self.state = BalancingState::Measuring;
-        if level <= self.design.quiet && self.in_run.level().is_none() {
-            return self.hold(level, reading);
-        }
-        match self.in_run.advise_at(reading, variance, speed) {
-            Action::Set(to) => {
-                let home = self.in_run.home();
-                if home != self.record.weights {
-                    self.record.weights = home;
-                    self.dirty = true;
-                }
-                self.go(to, from);
-            }
-            Action::Hold => self.hold(level, reading),
-            Action::Abort(to, reason) => {
-                self.state = BalancingState::Stopped(reason);
-                (self.rest, self.retries) = (REST, self.retries + 1);
-                self.remember(to);
-                self.go(to, from);
-            }
-        }
-    }
-
-    /// A head without a sensor has missed a command that shows no effect: it stands where it stood.
-    fn look_for_effect(&mut self, reading: &[Complex<f32>; ROWS], variance: f32) {
-        let to = *self.in_run.weights();
-        if let Some((last, from)) = self.last.filter(|(_, from)| !self.measured && *from != to) {
-            let pairs = || reading.iter().zip(&last);
-            let change = pairs().fold(0.0_f32, |most, (now, last)| most.max(size(*now - *last)));
-            let level = pairs().fold(0.0_f32, |most, (now, last)| most.max(size(*now)).max(size(*last)));
-            let noise = (2.0 * variance).max(LEAST * LEAST * level * level);
-            let predicted = self.in_run.predicted_change(&from, &to);
-            let shown = change * change >= SHOWN * SHOWN * noise && change >= FOLLOWED * predicted;
-            if !shown && self.missed < MISSED {
-                self.missed += 1;
-                self.state = BalancingState::HeadStuck;
-                self.in_run.installed(&from);
-            } else {
-                self.missed = 0;
-            }
-        }
-        self.last = Some((*reading, *self.in_run.weights()));
-    }
-
-    fn resume(&mut self) {
-        let from = *self.in_run.weights();
-        self.in_run.resume(&from);
-    }
-
-    fn hold(&mut self, level: f32, reading: &[Complex<f32>; ROWS]) {
-        self.held = Some(level);
-        self.state = BalancingState::Held(self.verdict(reading));
-        self.remember(*self.in_run.weights());
-        self.read();
-    }
-
-    fn remember(&mut self, weights: [Complex<f32>; PLANES]) {
-        self.record = BalancingRecord { weights, ..self.in_run.record(self.record.speed) };
-        self.dirty = true;
-    }
-
-    /// The residual unbalance by a reading, judged by ISO 21940-11.
-    fn verdict(&self, reading: &[Complex<f32>; ROWS]) -> Option<Verdict<f32>> {
-        self.design.rotor.judge(self.in_run.residual(reading)?).ok()
     }
 }
