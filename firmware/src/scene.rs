@@ -86,6 +86,12 @@ pub trait Scene {
         Output { answer: self.panel(input.asked), ..output }
     }
 
+    /// So many ticks did not run before the one with this input. Returns the faults to add to those of that tick.
+    #[cfg(not(target_os = "none"))]
+    fn missed(&mut self, _input: &Input, _ticks: u32) -> u32 {
+        0
+    }
+
     /// The value of a channel of [`Variant::CHANNELS`], by its index, as a word.
     fn channel(&self, _index: usize) -> u32 {
         0
@@ -106,6 +112,10 @@ impl<S: Scene + ?Sized> Scene for alloc::boxed::Box<S> {
 
     fn panel(&mut self, asked: [u32; 2]) -> u32 {
         (**self).panel(asked)
+    }
+
+    fn missed(&mut self, input: &Input, ticks: u32) -> u32 {
+        (**self).missed(input, ticks)
     }
 
     fn channel(&self, index: usize) -> u32 {

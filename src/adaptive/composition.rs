@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use super::{Adaptive, AdaptiveConfig, INTERRUPTED, Learning, Scheduling};
 use crate::configure::{Configure, Machine, Units};
-use crate::drive::{Composition, ConfigOf, GovernorConfigOf, ObserverConfigOf, VibrationOf};
+use crate::drive::{Composition, ConfigOf, GovernorConfigOf, MADE_UP, ObserverConfigOf, VibrationOf};
 use crate::fault::Faults;
 use crate::number::Part;
 use crate::sample::{Command, Estimate, Sample};
@@ -100,14 +100,18 @@ where
         let torque = self.learners.calibrated(sample.torque);
         let command = self.drive.tick_after(&self.config, &Sample { torque, ..*sample }, missed);
         self.passed = self.passed.wrapping_add(missed);
-        self.count(command.faults);
+        // Ticks that are made up hang together; more of them lack the angle, which is a fault of its own.
+        self.count(Faults::from_bits(command.faults.bits() & !Faults::TICK_MISSED.bits()));
         command
     }
 
     fn make_up(&mut self, _: &Self::Config, torque: D::Number, missed: u32) -> Faults {
         let torque = self.learners.calibrated(torque);
         let faults = self.drive.make_up(&self.config, torque, missed);
-        self.passed = self.passed.wrapping_add(missed) | INTERRUPTED;
+        self.passed = self.passed.wrapping_add(missed);
+        if missed > MADE_UP {
+            self.passed |= INTERRUPTED;
+        }
         faults
     }
 

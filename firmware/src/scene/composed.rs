@@ -1,6 +1,6 @@
 //! A composed scene: the words of the link on one side, a drive of any parts on the other.
 
-use driveline::drive::{Composition, ConfigOf, Drive};
+use driveline::drive::{Composition, ConfigOf, Drive, MADE_UP};
 use driveline::governor::SpeedLoop;
 use driveline::number::{Number, Part};
 use driveline::observer::Observer;
@@ -21,6 +21,16 @@ pub trait OverWords: Composition {
             self.hold(config, sample.angle, sample.setpoint)
         };
         output(&command, &self.estimate(config))
+    }
+
+    /// Makes up ticks that did not run before the one with this input. Returns the bits of the faults.
+    #[cfg(not(target_os = "none"))]
+    fn make_up_before(&mut self, config: &ConfigOf<Self>, input: &Input, ticks: u32) -> u32 {
+        let faults = self.make_up(config, Self::Number::from_word(input.torque), ticks);
+        if ticks > MADE_UP {
+            self.observer_mut().resync(input.angle);
+        }
+        faults.bits()
     }
 }
 
@@ -123,6 +133,11 @@ where
 
     fn panel(&mut self, asked: [u32; 2]) -> u32 {
         self.beside.panel(&mut self.drive, &mut self.config, asked)
+    }
+
+    #[cfg(not(target_os = "none"))]
+    fn missed(&mut self, input: &Input, ticks: u32) -> u32 {
+        self.drive.make_up_before(self.config, input, ticks)
     }
 
     fn channel(&self, index: usize) -> u32 {

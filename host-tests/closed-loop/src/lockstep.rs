@@ -121,6 +121,8 @@ pub struct LockStep {
     brake: f64,
     /// A request waits for a tick that runs.
     asked: [u32; 2],
+    /// Ticks that did not run since the last one that did.
+    missed: u32,
 }
 
 impl LockStep {
@@ -141,6 +143,7 @@ impl LockStep {
             tripped: false,
             brake: 0.0,
             asked: [0; 2],
+            missed: 0,
         }
     }
 
@@ -168,6 +171,7 @@ impl LockStep {
             tripped,
             brake,
             asked,
+            missed,
         } = self;
         let period = *period;
         // of one density at every rate
@@ -199,9 +203,10 @@ impl LockStep {
                 plant.set_load_torque(law.node, torque);
             }
             let torque_noise = torque_noise * noise.normal();
-            let missed =
-                imperfections.missed_ticks > 0.0 && 0.5 * (timing.uniform() + 1.0) < imperfections.missed_ticks;
-            let exchanged = if missed {
+            let runs =
+                imperfections.missed_ticks <= 0.0 || 0.5 * (timing.uniform() + 1.0) >= imperfections.missed_ticks;
+            let exchanged = if !runs {
+                *missed += 1;
                 None
             } else {
                 // Reported torque of brake and friction in the tick that has ended. At rest friction balances the
@@ -225,7 +230,9 @@ impl LockStep {
                     flags: if *released { Input::RELEASED } else { 0 },
                     ..input
                 };
-                let output = drive.tick(&input)?;
+                let faults = if *missed > 0 { drive.missed(&input, std::mem::take(missed)) } else { 0 };
+                let mut output = drive.tick(&input)?;
+                output.faults |= faults;
                 *command = units.torque(output.torque);
                 if plant.motors() > 1 {
                     let torques = drive.tick(&Input { flags: Input::MOTORS, ..Input::default() })?;

@@ -68,7 +68,7 @@ impl Course {
     }
 }
 
-/// The load may have changed behind a closed brake, while the drive was tripped, or in ticks that did not run; a
+/// The load may have changed behind a closed brake, while the drive was tripped, or in many ticks that did not run; a
 /// torque that is not one tells nothing. By hand each learner had to be told.
 #[test]
 fn a_pair_of_windows_with_a_gap_between_teaches_nothing() {
@@ -104,10 +104,18 @@ fn a_pair_of_windows_with_a_gap_between_teaches_nothing() {
             other,
         ),
         (
-            "a tick that did not run",
+            "a tick that did not run and is made up",
             |course| {
                 course.angle += 2.0 * course.speed / 4_000.0;
                 course.drive.tick_after(&CONFIG, &course.sample(200.0), 1);
+            },
+            one,
+        ),
+        (
+            "more ticks than are made up",
+            |course| {
+                course.angle += 10.0 * course.speed / 4_000.0;
+                course.drive.tick_after(&CONFIG, &course.sample(200.0), 9);
             },
             other,
         ),

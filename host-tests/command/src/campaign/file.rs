@@ -280,6 +280,10 @@ impl<D: Composition<Config: Clone + 'static> + Clone + 'static> Scene for Observ
         self.drive.advance(&self.config, input)
     }
 
+    fn missed(&mut self, input: &Input, ticks: u32) -> u32 {
+        self.drive.make_up_before(&self.config, input, ticks)
+    }
+
     fn copy(&self) -> Option<Box<dyn Scene>> {
         Some(Box::new(Self { drive: self.drive.clone(), config: self.config.clone() }))
     }
