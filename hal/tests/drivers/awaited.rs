@@ -7,11 +7,8 @@ use driveline_hal::{
     Tmc4671,
 };
 
-use super::angle::{Frames, Wrong};
-use super::bus::Expected;
 use super::chips::{self, As5047P, Taker, Wired, awaited, polled};
 use super::scripted::{CAUGHT, CONFIG, WANTED, Whole, turned};
-use super::vibration::{burst, started};
 
 const FULL: FullScale<f32> = FullScale::<f32>::new(10.0);
 const PER_COUNT: PerCount<f32> = PerCount::<f32>::new(1.0);
@@ -22,78 +19,6 @@ const ALL: usize = 14;
 /// No transaction fails, then each of the first sixteen: more than the runs below have.
 fn failing() -> impl Iterator<Item = Option<usize>> {
     std::iter::once(None).chain((0..16).map(Some))
-}
-
-#[test]
-fn an_encoder_gives_its_angle_or_a_fault() {
-    for wrong in [Wrong::Bus, Wrong::Parity, Wrong::ErrorBit, Wrong::Magnet, Wrong::Low, Wrong::High] {
-        let mut frames = Frames::default();
-        frames.good(100);
-        frames.wrong(200, wrong);
-        frames.good(300);
-        let mut encoder = MagneticEncoder::new(frames.expected.bus(), Chip::As5047P);
-        let read = [(); 3].map(|()| awaited(encoder.angle_async()));
-        assert_eq!(read, [Ok(100 << 18), MISSING, Ok(300 << 18)], "{wrong:?}");
-        encoder.release().done();
-    }
-}
-
-#[test]
-fn an_accelerometer_starts_and_gives_its_samples() {
-    let mut expected = Expected::default();
-    started(&mut expected);
-    burst(&mut expected, 1, 256);
-    burst(&mut expected, 0, 256);
-    expected.failure();
-    burst(&mut expected, 1, (1 << 19) - 1);
-    burst(&mut expected, 0x11, 1000);
-    let started = awaited(Adxl355::start_async(expected.bus(), Along::Z, Range::G2, PER_COUNT, 3));
-    let mut sensor = started.map_err(|(faults, _)| faults).unwrap();
-    let read = [(); 5].map(|()| awaited(sensor.vibration_async()));
-    let missing = Err(Faults::VIBRATION_MISSING);
-    assert_eq!(read, [Ok(Some(256.0)), Ok(None), missing, Err(Faults::VIBRATION_CLIPPED), missing]);
-    sensor.release().done();
-}
-
-#[test]
-fn another_chip_or_none_does_not_start() {
-    for answer in [[0, 0xe5, 0, 0], [0xff; 4], [0; 4]] {
-        let mut expected = Expected::default();
-        expected.exchange(&[0x01, 0, 0, 0], &answer);
-        let started = awaited(Adxl355::start_async(expected.bus(), Along::X, Range::G2, PER_COUNT, 3));
-        let (faults, bus) = started.err().unwrap();
-        assert_eq!(faults, Faults::VIBRATION_MISSING);
-        bus.done();
-    }
-}
-
-#[test]
-fn a_torque_goes_to_a_dac_or_a_drive_or_is_a_fault() {
-    let mut expected = Expected::default();
-    expected.write(&[0, 0x40, 0x00]);
-    expected.failure();
-    expected.write(&[0, 0x80, 0x00]);
-    expected.write(&[0, 0x80, 0x00]);
-    let mut dac = SpiDac::new(expected.bus(), Dac::Ad5662, FULL);
-    let given = [-5.0, 5.0, f32::NAN].map(|torque| awaited(dac.set_torque_async(torque)));
-    assert_eq!(given, [Ok(()), Err(Faults::TORQUE_OUTPUT), Err(Faults::TORQUE_OUTPUT)]);
-    dac.release().done();
-    let mut expected = Expected::default();
-    expected.write(&[0x3f, 0xff]);
-    let mut dac = SpiDac::new(expected.bus(), Dac::Mcp4921, FULL);
-    assert_eq!(awaited(dac.set_torque_async(10.0)), Ok(()));
-    dac.release().done();
-    let mut expected = Expected::default();
-    expected.write(&[0xe4, 0x40, 0x00, 0, 0]);
-    expected.exchange(&[0x64, 0, 0, 0, 0], &[0xff, 0x40, 0x00, 0, 0]);
-    expected.write(&[0xe4, 0xc0, 0x00, 0, 0]);
-    expected.exchange(&[0x64, 0, 0, 0, 0], &[0xff, 0x40, 0x00, 0, 0]);
-    expected.write(&[0xe4, 0, 0, 0, 0]);
-    expected.exchange(&[0x64, 0, 0, 0, 0], &[0xff, 0, 0, 0, 0]);
-    let mut drive = Tmc4671::new(expected.bus(), FULL);
-    let given = [5.0, -5.0].map(|torque| awaited(drive.set_torque_async(torque)));
-    assert_eq!(given, [Ok(()), Err(Faults::TORQUE_OUTPUT)]);
-    drive.release().done();
 }
 
 /// The form that blocks and the one that is awaited give the same and send the same, each on a bus of its own.

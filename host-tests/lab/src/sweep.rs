@@ -2,8 +2,7 @@
 //!
 //! Every step runs open loop, its correction gains zero, through the library's own tick. [`errors`] puts a machine
 //! through a load torque that begins at once and pseudo-random motor torques, and compares with an exact motion of own
-//! arithmetic. [`growths`] looks at the poles of the coefficients as they are stored, [`free_swings`] lets an undamped
-//! machine swing for 1e8 ticks.
+//! arithmetic. [`growths`] looks at the poles of the coefficients as they are stored.
 //!
 //! | term | meaning | unit |
 //! |---|---|---|
@@ -22,7 +21,6 @@ mod poles;
 mod program;
 mod reference;
 mod step;
-mod swing;
 
 pub use cause::Cause;
 pub use error::{FINEST, Outcome, STEPS, USABLE, errors};
@@ -31,5 +29,4 @@ pub use growth::{Growth, TICKS, TOLERANCE, growths};
 pub use number::Swept;
 pub use poles::log_radius;
 pub use reference::{Reference, Truth};
-pub use step::{Increments, OpenLoop, Start, Step};
-pub use swing::{DECISIVE, Swing, free_swings};
+pub use step::{Increments, OpenLoop, Step};

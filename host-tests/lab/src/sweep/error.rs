@@ -11,7 +11,7 @@ use super::load::{LOAD_TORQUE, Torques};
 use super::number::Swept;
 use super::program::Course;
 use super::reference::Reference;
-use super::step::{OpenLoop, Start, Step};
+use super::step::{OpenLoop, Step};
 
 /// The steps of a sweep, in the order of [`errors`].
 pub const STEPS: [(&str, &str); 6] = [
@@ -67,7 +67,7 @@ struct Judged<N: Swept, S: Step<N>> {
 
 impl<N: Swept, S: Step<N>> Judged<N, S> {
     fn new(design: &TwoMassDesign, bases: Bases, ticks: u64) -> Self {
-        let run = OpenLoop::new(design, bases, Start::LoadTorque(LOAD_TORQUE)).ok();
+        let run = OpenLoop::new(design, bases, LOAD_TORQUE).ok();
         Judged { error: if run.is_some() { 0.0 } else { f64::INFINITY }, run, ticks }
     }
 

@@ -10,15 +10,6 @@ use super::number::{KICK, Swept};
 /// The increments of two states per tick, from those states: `x += N x`.
 pub type Increments = [[f64; 2]; 2];
 
-/// Initial state of a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Start {
-    /// A load torque (N m), from the next tick on.
-    LoadTorque(f64),
-    /// A shaft torque (N m) of a twisted shaft, and free motion from then on.
-    ShaftTorque(f64),
-}
-
 /// An observer of two masses that a sweep can run.
 pub trait Step<N: Swept>: Observer<N> + Copy {
     /// Name in the report.
@@ -28,7 +19,7 @@ pub trait Step<N: Swept>: Observer<N> + Copy {
     fn config(design: &TwoMassDesign, bases: Bases) -> Result<Self::Config, Error>;
 
     /// The constants with corrections that set a state when the angle has turned by `KICK`.
-    fn kicked(config: &Self::Config, design: &TwoMassDesign, bases: Bases, start: Start) -> Self::Config;
+    fn kicked(config: &Self::Config, bases: Bases, load_torque: f64) -> Self::Config;
 
     /// The step of the free pair as stored: twist and twist rate, or twist rate and shaft torque.
     fn increments(config: &Self::Config) -> Increments;
@@ -44,9 +35,9 @@ pub struct OpenLoop<N: Swept, S: Step<N>> {
 
 impl<N: Swept, S: Step<N>> OpenLoop<N, S> {
     /// A machine at rest, one state of which has then been set.
-    pub fn new(design: &TwoMassDesign, bases: Bases, start: Start) -> Result<Self, Error> {
+    pub fn new(design: &TwoMassDesign, bases: Bases, load_torque: f64) -> Result<Self, Error> {
         let config = S::config(design, bases)?;
-        let kicked = S::kicked(&config, design, bases, start);
+        let kicked = S::kicked(&config, bases, load_torque);
         let mut observer = S::at_rest(&config, 0, N::ZERO);
         // From zero everywhere the prediction is zero without rounding, so the innovation is the angle itself.
         observer.step(&kicked, KICK, N::ZERO);
@@ -57,17 +48,6 @@ impl<N: Swept, S: Step<N>> OpenLoop<N, S> {
     #[inline]
     pub fn tick(&mut self, torque: f64) {
         self.observer.step(&self.config, KICK, N::of(torque, self.bases.torque));
-    }
-
-    /// One tick of free motion.
-    #[inline(always)]
-    pub fn coast(&mut self) {
-        self.observer.step(&self.config, KICK, N::ZERO);
-    }
-
-    /// The step of the free pair as stored.
-    pub fn increments(&self) -> Increments {
-        S::increments(&self.config)
     }
 
     /// Motor speed, shaft torque, load speed [rad/s, N m, rad/s].
@@ -90,15 +70,10 @@ macro_rules! steps {
                 $exact
             }
 
-            fn kicked(config: &Self::Config, design: &TwoMassDesign, bases: Bases, start: Start) -> Self::Config {
-                let (mut twist, mut load) = (Default::default(), Default::default());
-                match start {
-                    Start::LoadTorque(torque) => load = <$number>::kick(torque, bases.torque),
-                    Start::ShaftTorque(torque) => {
-                        twist = <$number>::kick(torque / design.machine.stiffness, bases.twist);
-                    }
-                }
-                TwoMassConfig { correction: [Default::default(), Default::default(), twist, load], ..*config }
+            fn kicked(config: &Self::Config, bases: Bases, load_torque: f64) -> Self::Config {
+                let load = <$number>::kick(load_torque, bases.torque);
+                let none = Default::default();
+                TwoMassConfig { correction: [none, none, none, load], ..*config }
             }
 
             fn increments(config: &Self::Config) -> Increments {
@@ -115,13 +90,10 @@ macro_rules! steps {
                 $semi_implicit
             }
 
-            fn kicked(config: &Self::Config, _: &TwoMassDesign, bases: Bases, start: Start) -> Self::Config {
-                let (mut shaft, mut load) = (Default::default(), Default::default());
-                match start {
-                    Start::LoadTorque(torque) => load = <$number>::kick(torque, bases.torque),
-                    Start::ShaftTorque(torque) => shaft = <$number>::kick(torque, bases.torque),
-                }
-                SemiImplicitConfig { correction: [Default::default(), Default::default(), shaft, load], ..*config }
+            fn kicked(config: &Self::Config, bases: Bases, load_torque: f64) -> Self::Config {
+                let load = <$number>::kick(load_torque, bases.torque);
+                let none = Default::default();
+                SemiImplicitConfig { correction: [none, none, none, load], ..*config }
             }
 
             // rate -= c torque, then torque += s0 rate' + s1 rate, with the twist rate.

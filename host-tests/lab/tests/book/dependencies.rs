@@ -1,6 +1,6 @@
 //! The page of dependencies against `cargo metadata`: what is depended on, under which licence, and from where.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::process::Command;
 
 use serde_json::Value;
@@ -81,36 +81,6 @@ fn the_page_lists_every_dependency_with_its_licence() {
     assert_eq!(listed, expected);
 }
 
-/// Whether a licence expression offers an allowed one: `A OR B` if either does, `A AND B` if both do.
-fn offers(expression: &str, allowed: &[&str]) -> bool {
-    let expression = expression.trim();
-    // the expressions of the registry nest no deeper than one pair of parentheses, before an `AND`
-    if let Some((left, right)) = expression.split_once(" AND ") {
-        let inner = |part: &str| part.trim().trim_start_matches('(').trim_end_matches(')').to_owned();
-        return offers(&inner(left), allowed) && offers(&inner(right), allowed);
-    }
-    expression.split(" OR ").flat_map(|part| part.split('/')).any(|part| {
-        let licence = part.trim().split(" WITH ").next().unwrap_or_default();
-        allowed.contains(&licence)
-    })
-}
-
-/// Every package, however far down, comes from the registry and offers a licence that may be combined with ours.
-#[test]
-fn every_package_has_an_allowed_licence_and_comes_from_the_registry() {
-    let (all, rules) = (all_metadata(), rules());
-    let (usual, exceptions) = (words(&rules["licenses"]["allow"]), exceptions(&rules));
-    let mut wrong = Vec::new();
-    for package in all.iter().flat_map(packages).filter(|package| !is_ours(package)) {
-        let (name, licence) = (text(package, "name"), text(package, "license"));
-        let allowed = offers(licence, &usual) || exceptions.get(name).is_some_and(|own| offers(licence, own));
-        if !allowed || !text(package, "source").starts_with("registry+https://github.com/rust-lang/crates.io-index") {
-            wrong.push(format!("{name}: {licence:?}, {}", text(package, "source")));
-        }
-    }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-}
-
 /// What is used in tests alone stays there: the crate that reaches it is not published, and no crate of ours has it.
 #[test]
 fn packages_under_mpl_are_reached_from_tests_alone() {
@@ -128,37 +98,4 @@ fn packages_under_mpl_are_reached_from_tests_alone() {
     }
     assert_eq!(above("defmt-decoder"), ["driveline-defmt-log"]);
     assert!(above("driveline-defmt-log").is_empty());
-}
-
-/// No package has two versions but those that the rules name, and they name no other.
-#[test]
-fn one_version_of_each_package_but_for_those_named() {
-    let arguments = ["tree", "--workspace", "--all-features", "--locked", "--duplicates", "--depth=0", "--prefix=none"];
-    let output = Command::new(env!("CARGO")).args(arguments).current_dir(root()).output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    // the same version for the host's programs and for the target is one
-    let tree = String::from_utf8(output.stdout).unwrap();
-    let mut found: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
-    for (name, version) in tree.lines().filter_map(|line| line.split_once(" v")) {
-        found.entry(name).or_default().insert(version.split(' ').next().unwrap_or_default());
-    }
-    found.retain(|_, versions| versions.len() > 1);
-    let rules = rules();
-    for one in rules["bans"]["skip"].as_array().unwrap() {
-        let (name, version) = one["crate"].as_str().unwrap().split_once('@').unwrap();
-        assert!(found.get_mut(name).is_some_and(|all| all.remove(version)), "{name}@{version} is named, and is none");
-    }
-    found.retain(|_, versions| versions.len() > 1);
-    assert!(found.is_empty(), "{found:?}: several versions that .cargo/deny.toml does not name");
-}
-
-#[test]
-fn an_expression_offers_what_it_says() {
-    let mit = ["MIT"];
-    for good in ["MIT", "Apache-2.0 OR MIT", "MIT/Apache-2.0", "(MIT OR Apache-2.0) AND MIT"] {
-        assert!(offers(good, &mit), "{good}");
-    }
-    for bad in ["", "GPL-3.0", "MIT-0", "MIT AND GPL-3.0", "(Apache-2.0 OR MIT) AND BSD-3-Clause"] {
-        assert!(!offers(bad, &mit), "{bad}");
-    }
 }

@@ -351,52 +351,12 @@ fn outside_a_clone_the_firmware_is_asked_for() {
     }
 }
 
-/// The commands that read a file, each with one, and the option that names a result.
-const READERS: [(&str, &str, &str); 7] = [
-    ("modes", "machines/hoist.toml", "--html"),
-    ("rotor", "rotors/three_discs.toml", "--html"),
-    ("balancing", "rotors/fan-balance.toml", "--html"),
-    ("commissioning", "machines/axis.toml", "--html"),
-    ("simulate", "trains/gear-pair.toml", "--html"),
-    ("simulate", "trains/gear-pair.toml", "--csv"),
-    ("watch", "machines/hoist.toml", "--csv"),
-];
-
-/// By its name, a symbolic link, a hard link and another way to the same place.
 #[test]
-fn a_result_is_not_written_over_what_it_is_made_from() {
-    for (command, source, option) in READERS {
-        let folder = tempfile::tempdir().unwrap();
-        let at = |name: &str| folder.path().join(name);
-        let text = std::fs::read_to_string(format!("{}/../command/{source}", env!("CARGO_MANIFEST_DIR"))).unwrap();
-        std::fs::write(at("source.toml"), &text).unwrap();
-        std::os::unix::fs::symlink(at("source.toml"), at("symbolic")).unwrap();
-        std::fs::hard_link(at("source.toml"), at("hard")).unwrap();
-        std::fs::create_dir(at("sub")).unwrap();
-        for name in ["source.toml", "symbolic", "hard", "sub/../source.toml"] {
-            let [source, result] = [at("source.toml"), at(name)];
-            let arguments = [command, source.to_str().unwrap(), option, result.to_str().unwrap()];
-            let output = driveline(&arguments);
-            assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-            assert!(err(&output).contains("would overwrite its own input"), "{}", err(&output));
-            assert_eq!(std::fs::read_to_string(at("source.toml")).unwrap(), text, "{arguments:?}");
-        }
-    }
-}
-
-#[test]
-fn two_results_do_not_share_a_file() {
+fn a_result_and_standard_output_do_not_share_a_file() {
     let folder = tempfile::tempdir().unwrap();
-    let [file, sub] = ["both", "sub"].map(|name| folder.path().join(name));
-    std::fs::create_dir(&sub).unwrap();
-    let other = sub.join("../both");
-    let train = concat!(env!("CARGO_MANIFEST_DIR"), "/../command/trains/gear-pair.toml");
-    let output = driveline(&["simulate", train, "--csv", file.to_str().unwrap(), "--html", other.to_str().unwrap()]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(err(&output).contains("would hold both the table and the page"), "{}", err(&output));
-    // nor with standard output
-    let to_file = std::fs::File::create(&file).unwrap();
+    let file = folder.path().join("both");
     let mut command = Command::new(env!("CARGO_BIN_EXE_lab"));
+    let to_file = std::fs::File::create(&file).unwrap();
     let output = command.args(["modes", HOIST, "--html"]).arg(&file).stdout(to_file).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
     assert!(err(&output).contains("is where standard output goes"), "{}", err(&output));
@@ -410,18 +370,6 @@ fn a_folder_is_not_made_for_a_typo() {
     assert_eq!(output.status.code(), Some(2));
     assert!(err(&output).contains("reprot; make it, or name another"), "{}", err(&output));
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
-}
-
-#[test]
-fn a_figure_is_printed_before_its_page_fails() {
-    if !std::path::Path::new("/dev/full").exists() {
-        driveline_lab::check::skip("this system has no /dev/full");
-        return;
-    }
-    let output = driveline(&["modes", HOIST, "--json", "--html", "/dev/full"]);
-    assert_eq!(output.status.code(), Some(1));
-    assert!(json(&out(&output))["resonances"].is_array());
-    assert!(err(&output).contains("No space left"), "{}", err(&output));
 }
 
 #[test]
@@ -441,29 +389,6 @@ fn what_cannot_be_printed_is_shown_by_a_mark() {
         // of a word that it does not know the parser prints what can be printed
         assert!(said.contains('\u{fffd}') || arguments[0] != "modes", "{said:?}");
         assert!(!said.contains(|c: char| c.is_control() && c != '\n'), "{said:?}");
-    }
-}
-
-#[test]
-fn a_signal_ends_long_work_at_once() {
-    let folder = tempfile::tempdir().unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_lab"));
-    command.args(["campaign", "spindle", "--draws", "100000", "--json"]).current_dir(&folder);
-    let mut child = command.stdout(Stdio::null()).spawn().unwrap();
-    // until it has begun to catch signals: before, it ends by them as well
-    std::thread::sleep(std::time::Duration::from_millis(300));
-    let killed = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
-    assert!(killed.success());
-    assert_eq!(std::os::unix::process::ExitStatusExt::signal(&child.wait().unwrap()), Some(15));
-}
-
-#[cfg(target_os = "linux")]
-#[test]
-fn a_full_standard_output_is_a_failure() {
-    for arguments in [&["design", HOIST][..], &["--help"], &["modes", "--help"]] {
-        let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
-        let status = Command::new(env!("CARGO_BIN_EXE_lab")).args(arguments).stdout(full).status().unwrap();
-        assert_eq!(status.code(), Some(1), "{arguments:?}");
     }
 }
 
