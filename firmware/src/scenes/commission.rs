@@ -9,7 +9,7 @@
 //! The test's data on a machine are on its name plates: rates, torques, speeds, the motor's inertia, and where
 //! about the resonance is looked for.
 
-use driveline::commissioning::{Commissioning, CommissioningResult, Error, Figure, Stage, TestConfig, TestSettings};
+use driveline::commissioning::{Commissioning, CommissioningResult, Error, Figure, TestConfig, TestSettings};
 use driveline::configure::Machine;
 use driveline::design::{Disturbance, Rate, SpeedLoopTuning};
 use driveline::machine::TwoMass;
@@ -93,7 +93,7 @@ static CONFIGS: [TestConfig; 3] = [config(&HOIST), config(&MILL), config(&SPINDL
 pub mod panel {
     /// The machine is that of this number, before it is released.
     pub const MACHINE: u32 = 6;
-    /// The stage, by its place in [`STAGES`](super::STAGES).
+    /// The stage, by its number.
     pub const STAGE: u32 = 1;
     /// A figure of the result, by its place in [`figures`](super::figures), as the bits of an `f32`; all ones where
     /// there is none.
@@ -111,10 +111,6 @@ pub mod panel {
     /// No answer.
     pub const NONE: u32 = u32::MAX;
 }
-
-/// The stages by their numbers.
-pub const STAGES: [Stage; 7] =
-    [Stage::Holding, Stage::Friction, Stage::Encoder, Stage::Backlash, Stage::Resonance, Stage::Done, Stage::Refused];
 
 /// The figures by their numbers.
 pub fn figures(identified: &CommissioningResult) -> [Figure; 14] {

@@ -2,13 +2,10 @@
 
 mod balancing;
 mod check;
-mod commission;
-mod generator;
 mod longest_path;
 mod peers;
 mod report;
 mod run;
-mod sizes;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -29,13 +26,10 @@ struct Lab {
 #[derive(Debug, Subcommand)]
 enum Command {
     Check(check::Check),
-    Commissioning(commission::Commission),
-    Genset(generator::Generator),
     LongestPath(longest_path::LongestPath),
     Peers(peers::Peers),
     Report(report::Report),
     Run(run::Run),
-    Sizes(sizes::Sizes),
     #[command(flatten)]
     Driveline(cargo_driveline::cli::Command),
 }
@@ -44,13 +38,9 @@ impl CommandLine for Lab {
     fn json(&self) -> bool {
         match &self.command {
             Command::Check(command) => command.json,
-            Command::Commissioning(command) => command.json,
-            Command::Genset(command) => command.json,
             Command::LongestPath(command) => command.json,
-            Command::Peers(command) => command.json,
             Command::Report(command) => command.json,
             Command::Run(command) => command.json,
-            Command::Sizes(command) => command.json,
             Command::Driveline(command) => command.json(),
         }
     }
@@ -58,13 +48,9 @@ impl CommandLine for Lab {
     fn execute(&self) -> Result<(), Failure> {
         match &self.command {
             Command::Check(command) => command.execute(),
-            Command::Commissioning(command) => command.execute(),
-            Command::Genset(command) => command.execute(),
             Command::LongestPath(command) => command.execute(),
-            Command::Peers(command) => command.execute(),
             Command::Report(command) => command.execute(),
             Command::Run(command) => command.execute(),
-            Command::Sizes(command) => command.execute(),
             Command::Driveline(cargo_driveline::cli::Command::Campaign(command)) => command.execute(SCENES),
             Command::Driveline(command) => command.execute(),
         }

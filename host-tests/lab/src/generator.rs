@@ -9,7 +9,6 @@
 
 pub mod diesel;
 pub mod faults;
-pub mod page;
 pub mod run;
 pub mod set;
 pub mod standard;

@@ -39,13 +39,6 @@ pub struct Sample {
     pub load_torque: Sampled,
 }
 
-impl Sample {
-    /// Whether it is of a scene.
-    pub fn is_of(&self, scene: &str) -> bool {
-        self.variant.split('/').next() == Some(scene)
-    }
-}
-
 /// Title of the table of samples.
 pub const SAMPLES: &str = "Machines within their tolerances";
 

@@ -129,9 +129,7 @@ pub fn grinder(words: Words, drive: &mut dyn Ticks, start: &GrinderStart) -> Res
     claims.extend(course.claims());
     let rows = ["front bearing", "rear bearing"].map(str::to_owned).to_vec();
     let measure = "share of the vibration that is left";
-    let outcome =
-        super::scene::outcome("surface-grinder", measure, rows, stages, claims, operator, &model, 1.25 * SPEED)?;
-    Ok((course, outcome))
+    Ok((course, super::scene::outcome("surface-grinder", measure, rows, stages, claims, operator)))
 }
 
 /// The same from the start that `seed` gives.

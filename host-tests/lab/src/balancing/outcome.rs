@@ -75,8 +75,6 @@ pub struct Outcome {
     pub fingerprint: u64,
     /// Most instructions of a tick, and their mean; zero on the host.
     pub instructions: (u32, f64),
-    /// Speeds (rad/s), and for each stage the largest amplitude of the channels there (m).
-    pub over_speed: (Vec<f64>, Vec<Vec<f64>>),
     /// Simulated time (s).
     pub time: f64,
 }

@@ -15,10 +15,6 @@ use super::power_cut::PowerCuts;
 use driveline_closed_loop::ticks::{OnHost, Ticks};
 use driveline_qemu::image::{Contents, Program, belongs, build};
 use driveline_qemu::link::Link;
-use driveline_solver::rotor::{Model, Polar};
-
-/// Points of the amplitude over the speed.
-const POINTS: usize = 400;
 
 /// A scene that can be balanced.
 #[derive(Clone, Copy, Debug)]
@@ -170,8 +166,7 @@ impl Ticks for Beside {
     }
 }
 
-/// Puts an outcome together when the work is done; the amplitudes are drawn up to `highest` (rad/s).
-#[allow(clippy::too_many_arguments)]
+/// Puts an outcome together when the work is done.
 pub(super) fn outcome(
     scene: &str,
     measure: &str,
@@ -179,20 +174,8 @@ pub(super) fn outcome(
     stages: Vec<Stage>,
     claims: Vec<Claim>,
     operator: Operator<'_>,
-    model: &Model,
-    highest: f64,
-) -> Result<Outcome, BalancingError> {
-    let speeds: Vec<f64> = (POINTS / 10..=POINTS).map(|k| highest * k as f64 / POINTS as f64).collect();
-    let mut amplitudes = Vec::new();
-    for stage in &stages {
-        let unbalance: Vec<_> = stage.unbalance.iter().map(|u| Polar::degrees(u.size, u.angle)).collect();
-        let mut course = Vec::with_capacity(POINTS);
-        for &speed in &speeds {
-            course.push(model.response(speed, &unbalance)?.iter().map(|x| x.norm()).fold(0.0, f64::max));
-        }
-        amplitudes.push(course);
-    }
-    Ok(Outcome {
+) -> Outcome {
+    Outcome {
         scene: scene.to_owned(),
         measure: measure.to_owned(),
         rows,
@@ -201,7 +184,6 @@ pub(super) fn outcome(
         doubts: operator.doubts.iter().map(|&doubt| doubt.to_owned()).collect(),
         fingerprint: operator.machine.fingerprint(),
         instructions: operator.machine.instructions(),
-        over_speed: (speeds, amplitudes),
         time: operator.machine.time(),
-    })
+    }
 }

@@ -2,7 +2,6 @@
 
 use serde::Deserialize;
 
-use super::{Case, larger};
 use driveline_solver::plant::train::{Coordinate, Link, Motion, Signal, Source, Train, Variation};
 
 const FILE: &str = include_str!("../../../../tests/data/gear_mesh.json");
@@ -158,22 +157,4 @@ impl Pair {
         }
         peak
     }
-}
-
-/// Every mesh frequency: the periodic motion and its extremes.
-pub fn all() -> Result<Vec<Case>, String> {
-    let pair = pair()?;
-    let case = |point: &Point| -> Result<Case, String> {
-        let compared = pair.compared(point)?;
-        let error = |(_, [found, expected, scale]): &(&str, [f64; 3])| (found - expected).abs() / scale;
-        let worst = compared.iter().map(error).fold(0.0, larger);
-        Ok(Case {
-            group: "gear mesh",
-            name: format!("mesh frequency {} of the resonance", point.mesh_frequency_ratio),
-            compared: "periodic motion and its extremes",
-            found: worst,
-            allowed: pair.rel_tol,
-        })
-    };
-    pair.points.iter().map(case).collect()
 }

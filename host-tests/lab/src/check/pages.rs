@@ -14,7 +14,7 @@ fn is_installed() -> bool {
 
 /// Every page that a command writes within seconds, and the scope.
 pub fn quick(voice: &Voice) -> Result<Count, Failed> {
-    in_browser(3, &["in_a_browser", "--skip", OF_FIRMWARE], voice)
+    in_browser(2, &["in_a_browser", "--skip", OF_FIRMWARE], voice)
 }
 
 /// The pages of commands that compile and run firmware.

@@ -1,14 +1,11 @@
-//! `cargo lab run balanced-fan`, `flexible`, `grinding-spindle`, `surface-grinder`: a rotor balanced by its
+//! `cargo lab run balanced-fan`, `flexible`, `surface-grinder`: a rotor balanced by its
 //! firmware in QEMU.
-
-use std::path::Path;
 
 use serde_json::json;
 
-use crate::balancing::{Ran, Scene, page, tables};
+use crate::balancing::{Ran, Scene, tables};
 use crate::candidates::Candidate;
 use crate::drivetrains::Variants;
-use cargo_driveline::cli::results::{Destination, check};
 use cargo_driveline::cli::setup::ready;
 use cargo_driveline::cli::{Failure, Progress, say, say_json};
 use driveline_qemu::setup::Need;
@@ -21,17 +18,14 @@ const SEED: u64 = 1;
 pub struct Wanted<'a> {
     /// Which variants.
     pub variants: Variants<'a>,
-    /// File of the page.
-    pub html: Option<&'a Path>,
     /// JSON instead of tables.
     pub json: bool,
 }
 
-/// Balances a scene in some of its variants, prints tables or JSON, writes the page.
+/// Balances a scene in some of its variants, prints tables or JSON.
 ///
 /// # Errors
-/// No such variant; what kept one from being balanced; a claim that was missed, a word that differs from the host's; a
-/// page that cannot be written.
+/// No such variant; what kept one from being balanced; a claim that was missed, a word that differs from the host's.
 pub fn run(scene: &Scene, wanted: Wanted<'_>) -> Result<(), Failure> {
     let filter = if let Variants::Containing(filter) = wanted.variants { Some(filter) } else { None };
     let mut variants = scene.variants(filter);
@@ -44,8 +38,6 @@ pub fn run(scene: &Scene, wanted: Wanted<'_>) -> Result<(), Failure> {
         let sentence = format!("no variant of `{}` contains `{filter}`; there are {}", scene.name, there.join(", "));
         return Err(Failure::usage(sentence));
     }
-    let file = Destination::page(wanted.html, scene.name);
-    check(&[], [&file])?;
     ready(&Need::to_run(variants.iter().map(|(_, board)| board)))?;
     let progress = Progress::of(variants.len() as u64);
     let mut all: Vec<Ran> = Vec::new();
@@ -62,7 +54,6 @@ pub fn run(scene: &Scene, wanted: Wanted<'_>) -> Result<(), Failure> {
             say(section);
         }
     }
-    file.write_and_say(&page(scene, &all), wanted.json)?;
     verdict(&all)
 }
 

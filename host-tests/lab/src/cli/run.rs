@@ -34,7 +34,7 @@ use driveline_report::{SAMPLES, Sample, Variant, samples_table, variants_table};
   cargo lab run --json > hoist.json")]
 pub struct Run {
     /// The scene: hoist or another drivetrain; or one whose rotor is balanced: balanced-fan, flexible,
-    /// grinding-spindle, surface-grinder
+    /// surface-grinder
     #[arg(default_value = "hoist")]
     scene: String,
     /// The scene, as an option
@@ -43,7 +43,7 @@ pub struct Run {
     /// Print {scene, variants: [...]} and no table
     #[arg(long)]
     pub json: bool,
-    /// File of the page [default: report/SCENE.html]
+    /// File of the page of a drivetrain [default: report/SCENE.html]
     #[arg(long, value_name = "PATH")]
     html: Option<PathBuf>,
     /// Only variants whose number/core/observer/rate contains this text, as `fixed/m3` or `reduced/10000`
@@ -73,7 +73,10 @@ impl Run {
             if self.quick {
                 return Err(Failure::usage(format!("--quick is for drivetrains, not for `{}`", scene.name)));
             }
-            return balancing::run(&scene, Wanted { variants, html: self.html.as_deref(), json: self.json });
+            if self.html.is_some() {
+                return Err(Failure::usage(format!("`{}` has tables and no page: leave --html out", scene.name)));
+            }
+            return balancing::run(&scene, Wanted { variants, json: self.json });
         }
         if !SCENES.iter().any(|(name, _)| *name == scene) {
             let names = SCENES.iter().map(|(name, _)| *name).chain(scenes().map(|scene| scene.name));

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use driveline_firmware::scene::{Input, Output};
+use driveline_firmware::scene::Input;
 use driveline_firmware::scenes::commission::panel;
 
 use super::machine::Case;
@@ -34,19 +34,13 @@ pub struct Course {
     pub moments: Vec<Moment>,
     /// Largest size of the shaft's torque (N m).
     pub peak: f64,
-    /// The same in each stage.
-    pub peaks: [f64; 7],
     /// Figures and standard deviations, where there is an answer.
     pub figures: Option<[[f64; 2]; 14]>,
     /// Gains that were designed for what was found.
     pub gains: Option<[f64; 8]>,
     /// Numbers of the reasons why there is none: of the test, of the gap.
     pub reasons: [u32; 2],
-    /// Responses: upwards and downwards; frequency, real part, imaginary part, deviation.
-    pub responses: [Vec<[f64; 4]>; 2],
     pub ticks: u64,
-    /// Instructions of the ticks: least, sum, most; zeros on the host.
-    pub instructions: [u64; 3],
 }
 
 /// Stage numbers that end a course.
@@ -60,29 +54,14 @@ fn noise_of(seed: u64) -> Noise {
     Noise::new(seed.wrapping_mul(2).wrapping_sub(1))
 }
 
-/// Runs a test on a plant. `seen` is given every tick's input and output.
-pub fn run(
-    case: &Case,
-    seed: u64,
-    drive: &mut impl Ticks,
-    mut seen: impl FnMut(u64, u32, &Input, &Output),
-) -> io::Result<Course> {
+/// Runs a test on a plant.
+pub fn run(case: &Case, seed: u64, drive: &mut impl Ticks) -> io::Result<Course> {
     let mut plant = case.plant.clone();
     let encoder = Encoder::new(case.counts);
     let mut noise = noise_of(seed);
     let period = case.settings.rate.period().unwrap_or(1.0e-4);
     let start = plant.motor_angle();
-    let mut course = Course {
-        moments: Vec::new(),
-        peak: 0.0,
-        peaks: [0.0; 7],
-        figures: None,
-        gains: None,
-        reasons: [0; 2],
-        responses: [Vec::new(), Vec::new()],
-        ticks: 0,
-        instructions: [u64::MAX, 0, 0],
-    };
+    let mut course = Course { moments: Vec::new(), peak: 0.0, figures: None, gains: None, reasons: [0; 2], ticks: 0 };
     let mut stage = 0;
     let read = |plant: &driveline_solver::plant::Plant| {
         let angle = plant.motor_angle() - start;
@@ -93,13 +72,9 @@ pub fn run(
         let input = Input { angle: read(&plant), asked: [panel::STAGE, 0], flags: Input::RELEASED, ..Input::default() };
         let output = drive.tick(&input)?;
         stage = output.answer;
-        seen(course.ticks, stage, &input, &output);
         let torque = f64::from(f32::from_bits(output.torque)) + case.torque_noise * noise.normal();
         let shaft = plant.shaft_torque(case.shaft);
         course.peak = course.peak.max(shaft.abs());
-        if let Some(peak) = course.peaks.get_mut(stage as usize) {
-            *peak = peak.max(shaft.abs());
-        }
         if course.ticks.is_multiple_of(64) {
             course.moments.push(Moment {
                 time: course.ticks as f64 * period,
@@ -110,9 +85,6 @@ pub fn run(
                 angle: plant.motor_angle() - start,
             });
         }
-        let [least, sum, most] = course.instructions;
-        let count = u64::from(output.instructions);
-        course.instructions = [least.min(count), sum + count, most.max(count)];
         plant.advance(torque, period);
         plant.clear_events();
         course.ticks += 1;
@@ -136,12 +108,6 @@ pub fn run(
             *gain = number(ask(panel::GAIN, place as u32)?);
         }
         course.gains = gains.iter().all(|gain| gain.is_finite()).then_some(gains);
-    }
-    for (way, responses) in course.responses.iter_mut().enumerate() {
-        for line in 0..driveline_firmware::scenes::commission::LINES as u32 {
-            let mut part = |part: u32| ask(panel::RESPONSE, line * 8 + way as u32 * 4 + part).map(number);
-            responses.push([part(0)?, part(1)?, part(2)?, part(3)?]);
-        }
     }
     Ok(course)
 }

@@ -21,12 +21,6 @@ use driveline_solver::plant::{Chain, Plant, PlantError, Shaft, Start};
 #[derive(Clone)]
 pub struct Case {
     pub name: String,
-    /// Its number among the scene's machines.
-    pub number: u32,
-    /// Description, in a sentence.
-    pub summary: String,
-    /// Whether its test is so short that QEMU takes less than a minute for it.
-    pub brief: bool,
     /// The plant at the start.
     pub plant: Plant,
     /// Data of the test.
@@ -49,7 +43,7 @@ pub struct Case {
 ///
 /// # Errors
 /// A figure of a plant that is out of range, which only a changed scene can bring.
-pub fn cases() -> Result<Vec<Case>, PlantError> {
+fn cases() -> Result<Vec<Case>, PlantError> {
     Ok(vec![crane()?, mill()?, tool()?])
 }
 
@@ -67,9 +61,6 @@ fn crane() -> Result<Case, PlantError> {
         .start(Start::Given { twists: vec![HELD / shaft, HELD / rope], speeds: vec![0.0; 3] });
     Ok(Case {
         name: "hoist".into(),
-        number: 0,
-        summary: "A 12 t crane hoist with a test load of 3 t.".into(),
-        brief: true,
         plant: chain.build()?,
         settings: HOIST,
         counts: 8192,
@@ -94,9 +85,6 @@ fn mill() -> Result<Case, PlantError> {
         .start(Start::Rest);
     Ok(Case {
         name: "mill".into(),
-        number: 1,
-        summary: "A reversing blooming mill with a gap of 10 mrad in its spindles, rolling nothing.".into(),
-        brief: false,
         plant: chain.build()?,
         settings: MILL,
         counts: 32_768,
@@ -129,9 +117,6 @@ fn tool() -> Result<Case, PlantError> {
         Chain::motor(0.012).viscous(drag).shaft(Shaft::elastic(stiffness).damping(0.3), 0.004).start(Start::Rest);
     Ok(Case {
         name: "spindle".into(),
-        number: 2,
-        summary: "A machine tool's spindle with a resonance of 800 Hz, in the air.".into(),
-        brief: true,
         plant: chain.build()?,
         settings: SPINDLE,
         counts: spindle::COUNTS,
@@ -194,9 +179,6 @@ pub fn of_file(machine: &MachineFile, trial: Trial) -> Result<Case, String> {
     let [resonance, antiresonance] = [truth.figures[3], truth.figures[4]].map(|w| w / core::f64::consts::TAU);
     Ok(Case {
         name: machine.slug(),
-        number: 0,
-        summary: format!("The machine `{}`, from a file.", machine.name),
-        brief: false,
         plant,
         settings: TestSettings {
             rate: Rate::hz(machine.control.rate_hz),

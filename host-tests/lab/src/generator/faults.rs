@@ -4,7 +4,6 @@ use driveline::governor::Trip;
 use driveline_firmware::Words;
 use driveline_firmware::scene::Input;
 use driveline_firmware::scenes::generator::RATED_SPEED;
-use serde::Serialize;
 
 use super::run::{Broken, Moment, Program, run};
 use super::set::Kind;
@@ -13,8 +12,7 @@ use driveline_closed_loop::units::Units;
 use driveline_solver::noise::Noise;
 
 /// An input of the drive.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wire {
     /// The flywheel's angle.
     Angle,
@@ -24,8 +22,7 @@ pub enum Wire {
     Setpoint,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// Zero.
     Dropped,
@@ -44,7 +41,7 @@ pub const WIRES: [Wire; 3] = [Wire::Angle, Wire::Torque, Wire::Setpoint];
 pub const FAULTS: [Fault; 5] = [Fault::Dropped, Fault::Frozen, Fault::Noisy, Fault::Negated, Fault::NotANumber];
 
 /// Result of a fault.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
     /// Where.
     pub wire: Wire,

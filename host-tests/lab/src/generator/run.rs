@@ -40,14 +40,8 @@ pub struct Moment {
     pub speed: f64,
     /// Torque commanded, of rated.
     pub command: f64,
-    /// The load's torque, and as the drive estimates it, of rated.
-    pub load: [f64; 2],
     /// State, as reported by the panel.
     pub mode: u32,
-    /// Fault flags.
-    pub faults: u32,
-    /// Instructions of the tick.
-    pub instructions: u32,
 }
 
 /// Why a run ended early.
@@ -116,10 +110,7 @@ pub fn run(
             frequency: frequency / RATED_SPEED,
             speed: set.flywheel_speed() / RATED_SPEED,
             command: command / constants.rated_torque,
-            load: [set.load_torque(), units.torque(output.load_torque)].map(|t| t / constants.rated_torque),
             mode: if tick == 0 { 0 } else { output.answer },
-            faults: output.faults,
-            instructions: output.instructions,
         });
         for _ in 0..STEPS {
             set.step(command, period / f64::from(STEPS));

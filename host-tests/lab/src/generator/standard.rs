@@ -9,8 +9,6 @@
 //! NEMA SM 23, class D, of steam turbines' governors: regulation 0.5 %, variation 0.25 %, rise 7 % on the loss of the
 //! rated load, trip at 110 % [Bloch and Singh 2009, Steam Turbines, table 8.1].
 
-use serde::Serialize;
-
 use super::run::Moment;
 
 /// Limits of a class, as fractions of the rated frequency.
@@ -47,7 +45,7 @@ pub const CLASS_D: [f64; 3] = [0.005, 0.0025, 0.07];
 pub const TRIP: f64 = 1.1;
 
 /// A load that came or went.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Step {
     /// When (s).
     pub time: f64,
@@ -66,7 +64,7 @@ pub struct Step {
 }
 
 /// Measurement of a run at constant load.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Steady {
     /// Load, of rated.
     pub load: f64,
@@ -80,14 +78,12 @@ pub struct Steady {
 }
 
 /// The figures of a run.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figures {
     /// Every load step.
     pub steps: Vec<Step>,
     /// The end of every stretch of constant load.
     pub steady: Vec<Steady>,
-    /// Highest speed of the flywheel over the steps, of rated.
-    pub top: f64,
 }
 
 impl Figures {
@@ -215,7 +211,6 @@ pub fn figures(moments: &[Moment], loads: &[(f64, f64)], end: f64) -> Figures {
             recovery: back(0.01),
             precise: back(0.001),
         });
-        figures.top = within(time, next).map(|moment| moment.speed).fold(figures.top, f64::max);
     }
     figures
 }

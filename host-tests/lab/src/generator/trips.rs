@@ -8,7 +8,6 @@ use driveline::governor::Trip;
 use driveline_firmware::Words;
 use driveline_firmware::scene::Input;
 use driveline_firmware::scenes::generator::{RATED_SPEED, panel};
-use serde::Serialize;
 
 use super::run::{Broken, Moment, Program, run};
 use super::set::Kind;
@@ -79,7 +78,7 @@ pub const CAUSES: [Cause; 10] = [
 ];
 
 /// Result of a cause.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Latched {
     /// Actions.
     pub what: &'static str,
@@ -87,8 +86,6 @@ pub struct Latched {
     pub trip: Option<(String, f64)>,
     /// Least and largest torque commanded up to it, of rated.
     pub torque: [f64; 2],
-    /// Highest frequency up to it, of rated.
-    pub top: f64,
     /// Largest torque commanded after it, of rated.
     pub after: f64,
     /// Whether it stood with its reason, the cause gone, until it was reset.
@@ -165,7 +162,6 @@ fn judge(moments: &[Moment], cause: &Cause, off: f64) -> Latched {
         what: cause.what,
         trip,
         torque,
-        top: before.iter().map(|moment| moment.frequency).fold(0.0, f64::max),
         after: largest,
         stands,
         reset,

@@ -8,12 +8,11 @@ use super::cases::sources;
 use super::run::Place;
 
 /// Each command that reads a file, its sources and every option that names a result.
-const COMMANDS: [(&str, &[&str], &[&str]); 14] = [
+const COMMANDS: [(&str, &[&str], &[&str]); 13] = [
     ("modes machine.toml", &["machine.toml"], &["--html"]),
     ("modes train.toml", &["train.toml"], &["--html"]),
     ("rotor rotor.toml", &["rotor.toml"], &["--html"]),
     ("balancing fan.toml", &["fan.toml"], &["--html"]),
-    ("commissioning machine.toml", &["machine.toml"], &["--html"]),
     ("simulate train.toml", &["train.toml"], &["--html", "--csv"]),
     ("watch stream.bin", &["stream.bin"], &["--csv"]),
     ("identify bench.csv --rate 2500", &["bench.csv"], &["--html", "--toml"]),

@@ -1,6 +1,5 @@
-//! Generator sets: their engines, their governors under attack, their page.
+//! Generator sets: their engines, their governors under attack.
 
 mod attack;
 mod engine;
-mod page;
 mod sets;

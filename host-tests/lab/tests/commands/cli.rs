@@ -30,15 +30,12 @@ fn every_command_explains_itself_with_examples() {
         "design",
         "rotor",
         "balancing",
-        "genset",
         "campaign",
         "simulate",
         "cosim",
         "watch",
         "check",
         "setup",
-        "sizes",
-        "commissioning",
         "identify",
         "replay",
     ] {
@@ -246,7 +243,6 @@ fn a_wrong_name_is_answered_with_the_right_ones() {
     for (arguments, there) in [
         (&["run", "--variants", "nothing"][..], "fixed/m3/reduced/10000"),
         (&["run", "balanced-fan", "--variants", "nothing"], "fixed/m3/two-mass/4000"),
-        (&["genset", "--variants", "nothing"], "f32/m4f/diesel/2400"),
         (&["watch", "--qemu", "nothing"], "hoist/f32/reduced/10000"),
         (&["watch", "--qemu", "hoist/f32/reduced/10000", "--core", "m7"], "m4f"),
         (&["watch"], "--qemu VARIANT"),
@@ -341,9 +337,7 @@ fn an_image_that_is_no_elf_is_refused_before_qemu_starts() {
 #[test]
 fn outside_a_clone_the_firmware_is_asked_for() {
     let folder = tempfile::tempdir().unwrap();
-    for command in
-        [&["run"][..], &["report"], &["check"], &["sizes"], &["genset"], &["commissioning", "mill", "--qemu"]]
-    {
+    for command in [&["run"][..], &["report"], &["check"]] {
         let mut lab = Command::new(env!("CARGO_BIN_EXE_lab"));
         let output = lab.args(command).current_dir(folder.path()).env_remove("CARGO_TARGET_DIR").output().unwrap();
         assert_eq!(output.status.code(), Some(2), "{command:?}");
@@ -409,42 +403,6 @@ fn a_machine_comes_through_a_pipe() {
         assert!(output.status.success(), "{command} {file}: {}", err(&output));
         assert!(json(&out(&output)).is_object(), "{command} {file}");
     }
-}
-
-#[test]
-fn what_cannot_be_commissioned_is_said_before_anything_runs() {
-    let refused = |arguments: &[&str], code: i32, words: &[&str]| {
-        let output = driveline(arguments);
-        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {}", err(&output));
-        for word in words {
-            assert!(err(&output).contains(word), "{arguments:?}: {word} in {}", err(&output));
-        }
-    };
-    const SHIP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../command/machines/ship.toml");
-    const AXIS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../command/machines/axis.toml");
-    refused(&["commissioning", SHIP], 2, &["ship.toml:20:1: `branch[0]`", "expected a chain"]);
-    // The load that hangs takes more than half of a half of the largest torque.
-    // 1350/4 N m; the load of 12 t on two falls and a drum of 0.4 m: 12000 9.80665 0.4/(2 31.5) = 747 N m
-    let words = ["hoist.toml: the largest torque of the shaft, 338 N m with --rated 0.5", "747 N m", "a lighter load"];
-    refused(&["commissioning", HOIST], 2, &words);
-    // a fifth of the load: 149 N m are a half of 0.221 of 1350 N m
-    let text = std::fs::read_to_string(HOIST).unwrap().replace("mass = 12000.0", "mass = 2400.0");
-    let lighter = tempfile::tempdir().unwrap();
-    let lighter = (lighter.path().join("light.toml"), lighter);
-    std::fs::write(&lighter.0, text).unwrap();
-    let file = lighter.0.to_str().unwrap();
-    refused(&["commissioning", file, "--rated", "0.2"], 2, &["135 N m", "149 N m", "give --rated above 0.221"]);
-    refused(&["commissioning", AXIS, "--speed", "1e-9"], 2, &["axis.toml: the test's speed", "--speed 1e-9"]);
-    refused(&["commissioning", AXIS, "--speed", "1e300"], 2, &["--speed is a share of the largest: at most 1"]);
-    refused(&["commissioning", AXIS, "--rated", "1.5"], 2, &["--rated is a share of the largest: at most 1, not 1.5"]);
-    refused(&["commissioning", AXIS, "--friction", "2"], 2, &["--friction is a share of the largest: at most 1"]);
-    refused(&["commissioning", AXIS, "--friction", "nan"], 2, &["--friction must be zero or above"]);
-    refused(&["commissioning", "spindle", "--speed", "0.5"], 2, &["--speed is for a file `NAME.toml`"]);
-    let folder = env!("CARGO_TARGET_TMPDIR");
-    // Half an hour of the mill is not run for a page that cannot be written.
-    refused(&["commissioning", "mill", "--html", folder], 2, &["is a folder"]);
-    let output = driveline(&["commissioning", SHIP, "--json"]);
-    assert_eq!(json(&err(&output))["at"]["line"], 20);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::browser::Browser;
 use crate::sample;
 
 /// Pages that a command writes within seconds: name of the page and arguments.
-const QUICK: [(&str, &str); 12] = [
+const QUICK: [(&str, &str); 11] = [
     ("modes", "modes hoist.toml"),
     ("design", "design mill.toml"),
     ("modes-train", "modes gear-pair.toml"),
@@ -20,16 +20,11 @@ const QUICK: [(&str, &str); 12] = [
     ("identify", "identify two-mass-bench.csv --rate 2500 --torque-constant 0.564 --to 5 --toml bench.toml"),
     ("replay", "replay two-mass-bench.csv --machine bench.toml --rate 2500 --torque-constant 0.564 --from 5"),
     ("campaign", "campaign roll.toml --draws 12 --results roll.draws"),
-    ("commissioning", "commissioning mill"),
 ];
 
 /// Pages of commands that compile: firmware for QEMU, or a drive for a machine that is an FMU.
-const COMPILED: [(&str, &str); 4] = [
-    ("run", "run hoist --quick --all"),
-    ("run-balanced", "run balanced-fan --variants f32/m4f"),
-    ("genset", "genset --no-faults --variants f32/m4f/diesel"),
-    ("cosim", "cosim machines/roll.toml PLANT --time 0.2"),
-];
+const COMPILED: [(&str, &str); 2] =
+    [("run", "run hoist --quick --all"), ("cosim", "cosim machines/roll.toml PLANT --time 0.2")];
 
 /// Largest page (bytes): a phone opens it, and a mail takes it.
 const LARGEST: u64 = 5_000_000;

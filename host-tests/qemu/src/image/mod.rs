@@ -2,7 +2,6 @@
 
 mod build;
 mod calls;
-mod footprint;
 mod fresh;
 mod machine_code;
 mod sections;
@@ -13,7 +12,6 @@ use std::path::PathBuf;
 use driveline_firmware::board::{BOARDS, Facts};
 
 pub use build::{BuildError, build, links};
-pub use footprint::{Footprint, footprints};
 pub use machine_code::{Function, Referent, tick_code};
 pub use sections::{Contents, ReadError, Sizes};
 pub use symbols::Symbol;

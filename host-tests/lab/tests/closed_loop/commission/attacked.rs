@@ -26,7 +26,7 @@ fn bounded(case: &Case, course: &Course) {
 }
 
 fn refused(case: &Case, seed: u64) -> Option<Error> {
-    let course = on_host(case, seed, |_, _| {}).unwrap();
+    let course = on_host(case, seed).unwrap();
     assert!(course.figures.is_none(), "{}", case.name);
     bounded(case, &course);
     reason(course.reasons[0])
@@ -79,7 +79,7 @@ fn an_encoder_that_counts_the_other_way() {
     for name in ["hoist", "mill", "spindle"] {
         let case = named(name).unwrap();
         let config: &'static TestConfig = Box::leak(Box::new(TestConfig::try_new(&case.settings).unwrap()));
-        let course = run(&case, 1, &mut Negated(OnHost(Commission::of(config))), |_, _, _, _| {}).unwrap();
+        let course = run(&case, 1, &mut Negated(OnHost(Commission::of(config)))).unwrap();
         bounded(&case, &course);
         let told = reason(course.reasons[0]);
         assert!(matches!(told, Some(Error::NotFollowed | Error::AngleJump)), "{name}: {told:?}");
@@ -92,9 +92,9 @@ fn a_first_guess_of_the_inertia_that_is_off_by_two() {
         for factor in [0.5, 2.0] {
             let mut case = named(name).unwrap();
             case.settings.inertia *= factor;
-            let course = on_host(&case, 1, |_, _| {}).unwrap();
+            let course = on_host(&case, 1).unwrap();
             bounded(&case, &course);
-            let verdict = verdict(&case, &course, None);
+            let verdict = verdict(&case, &course);
             assert_eq!(verdict.refused, None, "{name}, {factor}");
             assert!(verdict.figures.iter().all(|row| row.met() != Some(false)), "{name}, {factor}: {verdict:?}");
         }
@@ -106,10 +106,10 @@ fn a_first_guess_that_is_off_by_twenty() {
     for (name, factor) in [("hoist", 0.05), ("hoist", 20.0), ("spindle", 0.05), ("spindle", 20.0)] {
         let mut case = named(name).unwrap();
         case.settings.inertia *= factor;
-        let course = on_host(&case, 1, |_, _| {}).unwrap();
+        let course = on_host(&case, 1).unwrap();
         bounded(&case, &course);
         // Either a reason, or an answer that is right all the same.
-        let verdict = verdict(&case, &course, None);
+        let verdict = verdict(&case, &course);
         let right = verdict.figures.iter().all(|row| row.met() != Some(false));
         assert!(verdict.refused.is_some() || right, "{name}, {factor}: {verdict:?}");
     }

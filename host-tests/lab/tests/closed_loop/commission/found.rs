@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use driveline_lab::commissioning::{Course, Row, Verdict, cases, on_host, verdict};
+use driveline_lab::commissioning::{Case, Course, Row, Verdict, named, on_host, verdict};
 
-fn course(name: &str, seed: u64) -> (driveline_lab::commissioning::Case, Course) {
-    let case = cases().unwrap().into_iter().find(|case| case.name == name).unwrap();
-    let course = on_host(&case, seed, |_, _| {}).unwrap();
+fn course(name: &str, seed: u64) -> (Case, Course) {
+    let case = named(name).unwrap();
+    let course = on_host(&case, seed).unwrap();
     (case, course)
 }
 
@@ -30,7 +30,7 @@ fn unexplained(row: &Row) -> Option<[f64; 2]> {
 
 fn course_of_aims(name: &str, seed: u64) -> (Verdict, Course) {
     let (case, course) = course(name, seed);
-    let verdict = verdict(&case, &course, None);
+    let verdict = verdict(&case, &course);
     assert_eq!(verdict.refused, None, "{name}");
     assert!(verdict.meets(), "{name}: {verdict:?}");
     let mut aimed = 0;

@@ -8,7 +8,7 @@ use driveline_lab::commissioning::{Case, Course, Trial, named, of_file, on_host,
 use driveline_solver::plant::{Chain, Shaft};
 
 fn run(case: &Case) -> Course {
-    on_host(case, 1, |_, _| {}).unwrap()
+    on_host(case, 1).unwrap()
 }
 
 /// The spindle with another plant.
@@ -119,7 +119,7 @@ fn an_answer_that_does_not_come() {
     let case = named("spindle").unwrap();
     let mut course = run(&case);
     (course.figures, course.reasons) = (None, [0; 2]);
-    let verdict = verdict(&case, &course, None);
+    let verdict = verdict(&case, &course);
     assert!(!verdict.meets() && verdict.refused.is_some_and(|reason| reason.contains("an hour")));
 }
 

@@ -142,7 +142,6 @@ fn a_verdict_needs_a_record_and_every_limit() {
     let sound = Figures {
         steps: vec![step([0.0, 0.5], 0.06, 0.0), step([1.0, 0.0], 0.0, 0.09)],
         steady: vec![steady(0.0, 1.03), steady(0.5, 1.015), steady(1.0, 1.0)],
-        top: 1.09,
     };
     assert_eq!(sound.class(), Some("G3"));
     assert!((sound.droop() - 0.03).abs() < 1e-15);
