@@ -16,20 +16,14 @@ macro_rules! drivetrains {
     ($with:ident) => {
         $with! {
             hoist
-            fan
             spindle
             strip_mill
-            planetary
             crane_travel
             skip_winch
             punch_press
             blooming_mill
             converter
             converter_ring
-            plate_mill
-            vibrating_screen
-            gear_drive
-            belt_conveyor
         }
     };
 }
@@ -44,7 +38,6 @@ macro_rules! others {
             generator
             balanced_fan
             flexible
-            grinding_spindle
             surface_grinder
             commission
             tube_mill

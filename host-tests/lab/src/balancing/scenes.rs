@@ -1,11 +1,11 @@
 //! The scenes by name.
 
 use super::scene::Scene;
-use super::{fan, flexible, grinder, spindle};
+use super::{fan, flexible, grinder};
 
 /// The scenes.
 #[must_use]
-pub const fn scenes() -> [Scene; 4] {
+pub const fn scenes() -> [Scene; 3] {
     [
         Scene {
             name: "balanced-fan",
@@ -21,12 +21,6 @@ pub const fn scenes() -> [Scene; 4] {
                 first critical. Its sensors see \
                       the shaft's run-out, are off by 5 % and 10 degrees and have 5 % of noise.",
             balance: flexible::run,
-        },
-        Scene {
-            name: "grinding-spindle",
-            summary: "A grinding spindle with a balancing head that moves two masses while it turns at 3000 r/min: \
-                it balances itself, without prior data and without a command.",
-            balance: spindle::run,
         },
         Scene {
             name: "surface-grinder",

@@ -144,11 +144,11 @@ mod tests {
             let error = gap.holds().unwrap_err();
             assert!(error.contains(text), "{error}");
         };
-        fails(gap("fan/f32/rigid/4000", Some(100), 90, 101), "exceeds the longest path");
-        fails(gap("fan/f32/rigid/4000", Some(100), 101, 90), "exceeds the longest path");
+        fails(gap("spindle/f32/rigid/4000", Some(100), 90, 101), "exceeds the longest path");
+        fails(gap("spindle/f32/rigid/4000", Some(100), 101, 90), "exceeds the longest path");
         fails(gap("hoist/f32/exact/1000", Some(100), 96, 96), "expected 97 %");
         assert_eq!(gap("hoist/f32/exact/1000", Some(100), 90, 97).holds(), Ok(()));
-        assert_eq!(gap("fan/f32/rigid/4000", Some(100), 50, 60).holds(), Ok(()));
+        assert_eq!(gap("spindle/f32/rigid/4000", Some(100), 50, 60).holds(), Ok(()));
         assert_eq!(gap("commission/f32/hoist/1000", None, 50, 60).holds(), Ok(()));
     }
 

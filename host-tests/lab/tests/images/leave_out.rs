@@ -7,14 +7,9 @@ use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use driveline_firmware::board::Facts;
-use driveline_firmware::scenes::find;
-use driveline_firmware::self_test::fingerprint;
 use driveline_qemu::image::{Contents, Program, board, build};
 
 const CORES: [(&str, &str); 2] = [("f32", "m4f"), ("fixed", "m3")];
-
-/// What linking alone may move: the padding of a section and of the literal pools in it.
-const ALIGNMENT: u64 = 16;
 
 /// An image's contents; each is built once for all tests.
 fn read(number: &str, parts: &str, board: Facts) -> Contents {
@@ -98,37 +93,5 @@ fn an_observer_brings_nothing_of_another() {
         // Rigid: speed, load torque, accelerating torque, residual, angle; the others have one more.
         assert_eq!(sizes[1].ram() - sizes[0].ram(), 4, "{core}: {sizes:?}");
         assert_eq!(sizes[2].ram(), sizes[1].ram(), "{core}: {sizes:?}");
-    }
-}
-
-/// A drive of nothing but an observer is an observer that is called by hand with the same screening: the same RAM to
-/// the byte, and the same constants but for a letter of the variant's name and its alignment to a word. The code is
-/// the same but for how often the compiler repeats what is done with a bad angle: 20 bytes of 648 more on M4F, 90 of
-/// 816 on M3. An eighth is what that may be; a part that is not left out takes more.
-#[test]
-fn a_drive_of_an_observer_alone_is_that_observer() {
-    for (number, core) in CORES {
-        let board = board(core).unwrap();
-        let (drive, by_hand) = (read(number, "two-mass-observer", board), read(number, "two-mass-by-hand", board));
-        let what =
-            format!("{core}: {:?} {} and {:?} {}", drive.sizes, drive.tick_code, by_hand.sizes, by_hand.tick_code);
-        assert_eq!(drive.sizes.ram(), by_hand.sizes.ram(), "{what}");
-        assert!(drive.sizes.constants.abs_diff(by_hand.sizes.constants) <= 4, "{what}");
-        let allowed = by_hand.tick_code / 8 + ALIGNMENT;
-        assert!(drive.tick_code <= by_hand.tick_code + allowed, "{what}");
-        assert!(drive.sizes.text <= by_hand.sizes.text + allowed, "{what}");
-    }
-}
-
-#[test]
-fn a_drive_of_an_observer_alone_has_the_bits_of_the_calls_by_hand() {
-    for number in ["f32", "fixed"] {
-        let run = |parts: &str| {
-            let row = find(&format!("composition/{number}/{parts}/10000")).unwrap();
-            fingerprint::of_run(&mut row.start(), row.words())
-        };
-        assert_eq!(run("two-mass-observer"), run("two-mass-by-hand"), "{number}");
-        // What the comparison can see: another observer's bits are others.
-        assert_ne!(run("two-mass-observer"), run("semi-implicit-observer"), "{number}");
     }
 }

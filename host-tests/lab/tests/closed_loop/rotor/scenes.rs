@@ -2,7 +2,7 @@
 
 use driveline_closed_loop::ticks::OnHost;
 use driveline_firmware::scenes::find;
-use driveline_lab::balancing::{GrinderStart, Outcome, Scene, SpindleStart, grinder, rig, spindle};
+use driveline_lab::balancing::{GrinderStart, Outcome, Scene, grinder, rig};
 use driveline_qemu::image::{Contents, Program, board, build};
 
 fn balanced(scene: &str, variant: &str, seed: u64) -> Outcome {
@@ -59,19 +59,6 @@ fn what_the_firmware_reads_is_what_the_rotor_does() {
     }
 }
 
-#[test]
-fn a_spindle_balances_itself_from_nothing() {
-    for number in 1..=12 {
-        let variant =
-            if number % 2 == 0 { "grinding-spindle/f32/two-mass/4000" } else { "grinding-spindle/fixed/two-mass/4000" };
-        let start = SpindleStart::random(number);
-        let row = find(variant).unwrap();
-        let course = spindle(row.words(), &mut OnHost(row.start()), &start).unwrap().0;
-        assert!(course.left.last().is_some_and(|left| *left <= 0.05), "{start:?} {course:?}");
-        assert!(course.worst <= 1.3 && course.grades.iter().all(|grade| *grade <= 2.5), "{start:?} {course:?}");
-    }
-}
-
 /// A drive with all four parts: the scene claims something of each.
 #[test]
 fn a_grinder_with_all_four_parts_keeps_every_claim() {
@@ -105,20 +92,6 @@ fn a_grinder_keeps_every_claim_in_qemu_with_the_host_s_bits() {
         let ran = scene.in_qemu(variant, board(core).unwrap(), 1, &|_| {}).unwrap();
         assert!(ran.same_on_host, "{variant}");
         assert!(ran.outcome.claims.iter().all(|claim| claim.holds()), "{variant}: {:?}", ran.outcome.claims);
-    }
-}
-
-#[test]
-fn a_spindle_is_balanced_in_qemu_with_the_host_s_bits() {
-    let core = board("m3").unwrap();
-    for seed in 1..=3 {
-        let ran = Scene::named("grinding-spindle")
-            .unwrap()
-            .in_qemu("grinding-spindle/fixed/two-mass/4000", core, seed, &|_| {})
-            .unwrap();
-        assert!(ran.same_on_host);
-        assert!(ran.outcome.claims.iter().all(|claim| claim.holds()), "{:?}", ran.outcome.claims);
-        assert!(ran.outcome.instructions.0 > 0);
     }
 }
 

@@ -12,9 +12,7 @@ use driveline::sample::Estimate;
 use driveline::settings::{Bases, SpeedLoopSettings};
 use driveline_firmware::scenes::blooming_mill::BloomingMill;
 use driveline_firmware::scenes::crane_travel::CraneTravel;
-use driveline_firmware::scenes::gear_drive::GearDrive;
 use driveline_firmware::scenes::hoist::Hoist;
-use driveline_firmware::scenes::planetary::PlanetaryDrive;
 use driveline_firmware::scenes::spindle::Spindle;
 use driveline_firmware::scenes::strip_mill::StripMill;
 use driveline_solver::plant;
@@ -182,7 +180,7 @@ impl Scene {
     }
 }
 
-fn scenes() -> [Scene; 8] {
+fn scenes() -> [Scene; 6] {
     let damped = BloomingMill::TWO_MASS.speed_loop(BloomingMill::RATE, BloomingMill::TUNING);
     [
         Scene::of::<Hoist<1_000>>("hoist at 1 kHz", 20.0),
@@ -191,8 +189,6 @@ fn scenes() -> [Scene; 8] {
         Scene::of::<Spindle>("spindle", 0.5),
         Scene("blooming mill, no gap", BloomingMill::CHAIN, BloomingMill::OBSERVER, damped, 6.0),
         Scene::of::<CraneTravel>("crane travel", 300.0),
-        Scene::of::<GearDrive>("gear drive", 10.0),
-        Scene::of::<PlanetaryDrive>("planetary drive", 10.0),
     ]
 }
 

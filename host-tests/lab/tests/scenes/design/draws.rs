@@ -12,8 +12,8 @@ use driveline::machine::{Chain, Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::{Number, Part};
 use driveline_firmware::scene::FromConfig;
 use driveline_firmware::scenes::{
-    balanced_fan, belt_conveyor, blooming_mill, converter, crane_travel, fan, flexible, gear_drive, grinding_spindle,
-    hoist, planetary, skip_winch, spindle, strip_mill, surface_grinder, test_rig, vibrating_screen,
+    balanced_fan, blooming_mill, converter, crane_travel, flexible, hoist, skip_winch, spindle, strip_mill,
+    surface_grinder, test_rig,
 };
 
 /// xorshift64* [Marsaglia 2003, J. Stat. Softw. 8(14)].
@@ -143,11 +143,9 @@ fn a_thousand_machines_within_each_scene_s_tolerances_are_stable_with_6_db_to_sp
         hoist Rigid hoist::Hoist<1_000>;
         hoist Rigid hoist::Hoist<10_000>;
         hoist Exact hoist::CutAtRope<10_000>;
-        fan Rigid fan::Fan;
         spindle Exact spindle::Spindle;
         strip_mill SemiImplicit strip_mill::StripMill;
         strip_mill Rigid strip_mill::StripMill;
-        planetary Exact planetary::PlanetaryDrive;
         crane_travel SemiImplicit crane_travel::CraneTravel;
         crane_travel Rigid crane_travel::CraneTravel;
         skip_winch SemiImplicit skip_winch::SkipWinch;
@@ -158,14 +156,8 @@ fn a_thousand_machines_within_each_scene_s_tolerances_are_stable_with_6_db_to_sp
         blooming_mill Slack blooming_mill::BloomingMill;
         converter Plain converter::Converter;
         converter Slack converter::Converter;
-        vibrating_screen Exact vibrating_screen::VibratingScreen;
-        gear_drive Exact gear_drive::GearDrive;
-        belt_conveyor SemiImplicit belt_conveyor::BeltConveyor;
-        belt_conveyor Rigid belt_conveyor::BeltConveyor;
-        belt_conveyor Eased belt_conveyor::TorqueStart;
         balanced_fan TwoMass balanced_fan::BalancedFan;
         flexible TwoMass flexible::Flexible;
-        grinding_spindle TwoMass grinding_spindle::GrindingSpindle;
         surface_grinder Tick surface_grinder::SurfaceGrinder;
         test_rig Whole test_rig::TestRig;
     };
@@ -177,15 +169,10 @@ fn a_thousand_machines_within_each_scene_s_tolerances_are_stable_with_6_db_to_sp
 
 /// One mass is there for comparison: it takes the shaft's swing for the load's doing, and has not everywhere 6 dB.
 #[test]
-fn the_rigid_observers_for_comparison_are_stable_within_their_tolerances() {
-    for scene in [
-        scene::<spindle::Spindle, spindle::Rigid<f32>>("spindle"),
-        scene::<planetary::PlanetaryDrive, planetary::Rigid<f32>>("planetary"),
-    ] {
-        let (unstable, fragile) = scene.drawn();
-        println!("{}: {fragile} of 1,000 below 6 dB", scene.name);
-        assert_eq!(unstable, 0, "{}", scene.name);
-    }
+fn the_rigid_observer_for_comparison_is_stable_within_its_tolerances() {
+    let (unstable, fragile) = scene::<spindle::Spindle, spindle::Rigid<f32>>("spindle").drawn();
+    println!("{fragile} of 1,000 below 6 dB");
+    assert_eq!(unstable, 0);
 }
 
 /// Between the points that are tested lie no machines that are unstable: random loops of 6 dB, usual tolerances and
