@@ -238,6 +238,9 @@ pub struct Accuracy {
 }
 
 impl Accuracy {
+    /// None stated.
+    pub const NONE: Self = Self { signal_periods: 1, interpolation: 0.0, eccentricity: 0.0, jitter: 0.0 };
+
     /// Whether none is stated: the encoder is accurate to its counts.
     pub fn is_none(&self) -> bool {
         self.interpolation == 0.0 && self.eccentricity == 0.0 && self.jitter == 0.0

@@ -79,7 +79,8 @@ impl Text {
                 [] => {
                     let known: Vec<&str> = numbers.iter().map(|(names, ..)| names[0].as_str()).collect();
                     Err(format!(
-                        "--tune {}: {name} has no such key with a number; it has {}",
+                        "--tune {}: {name} has no such key with a number: write the key with its default into the file first; \
+                         it has {}",
                         tuned.key,
                         known.join(", ")
                     ))

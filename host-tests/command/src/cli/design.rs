@@ -12,7 +12,7 @@ use clap::{Args, ValueEnum};
 
 use self::page::page;
 use self::responses::Responses;
-use super::controller::{Causes, Margins, Predicted, SpeedLoop};
+use super::controller::{Causes, LeastMargins, Margins, Predicted, SpeedLoop};
 use super::project::tolerance;
 use super::results::{Destination, check};
 use super::{Failure, Plan, rust, say, say_json};
@@ -278,27 +278,28 @@ fn within_tolerances(machine: &MachineFile, speed_loop: &SpeedLoop) -> String {
     match &speed_loop.least_margins {
         None if speed_loop.margins.is_none() => String::new(),
         None => none(&within, speed_loop.not_robust.as_ref()),
-        Some(least) => format!(
-            "{within}: gain up {}, gain down {}, phase {}, delay {}, distance from -1 {}\n{refused}",
-            factor(least.gain_up),
-            significant(least.gain_down),
-            angle(least.phase),
-            time(least.delay),
-            significant(least.modulus),
-        ),
+        Some(least) => format!("{within}: {}\n{refused}", each(least)),
     }
 }
 
-fn factor(factor: Option<f64>) -> String {
-    factor.map_or_else(|| "any factor".to_owned(), significant)
-}
-
-fn angle(phase: Option<f64>) -> String {
-    phase.map_or_else(|| "any".to_owned(), |phase| format!("{:.0}°", phase.to_degrees()))
-}
-
-fn time(delay: Option<f64>) -> String {
-    delay.map_or_else(|| "any".to_owned(), |delay| format!("{} ms", significant(1e3 * delay)))
+/// Each margin; gains as factors and in dB.
+fn each(margins: &LeastMargins) -> String {
+    let gain = |factor: f64| {
+        if factor > 0.0 {
+            format!("{} ({:.1} dB)", significant(factor), 20.0 * factor.log10())
+        } else {
+            "any".to_owned()
+        }
+    };
+    let any = |text: Option<String>| text.unwrap_or_else(|| "any".to_owned());
+    format!(
+        "gain up {}, gain down {}, phase {}, delay {}, distance from -1 {}",
+        any(margins.gain_up.map(gain)),
+        gain(margins.gain_down),
+        any(margins.phase.map(|phase| format!("{:.0}°", phase.to_degrees()))),
+        any(margins.delay.map(|delay| format!("{} ms", significant(1e3 * delay)))),
+        significant(margins.modulus),
+    )
 }
 
 /// The margins in two lines.
@@ -310,13 +311,8 @@ fn margins(margins: &Margins) -> String {
         (Some(down), Some(up)) => format!("{} to {} times", significant(down), significant(up)),
     };
     format!(
-        "margins: gain up {}, gain down {}, phase {}, delay {}, distance from -1 {}\n\
-         tolerates, one at a time: motor inertia {}, load inertia {}, stiffness {}\n",
-        factor(margins.gain_up),
-        significant(margins.gain_down),
-        angle(margins.phase),
-        time(margins.delay),
-        significant(margins.modulus),
+        "margins: {}\ntolerates, one at a time: motor inertia {}, load inertia {}, stiffness {}\n",
+        each(&margins.least()),
         range(margins.motor_inertia),
         range(margins.load_inertia),
         range(margins.stiffness),

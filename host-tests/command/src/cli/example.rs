@@ -15,7 +15,7 @@ use super::{Failure, say, say_json};
 pub struct Example {
     /// Its name
     name: Option<String>,
-    /// Print [{name, commands}], with a name {name, commands, text}
+    /// Print [{name, commands, about}], with a name {name, commands, about, text}
     #[arg(long)]
     pub json: bool,
 }
@@ -25,28 +25,38 @@ pub struct Example {
 struct Entry {
     name: &'static str,
     commands: &'static str,
+    about: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     text: Option<&'static str>,
 }
 
-/// Name, for which commands, and text of each.
-const EXAMPLES: [(&str, &str, &str); 16] = [
-    ("hoist", "modes, design", include_str!("../../machines/hoist.toml")),
-    ("roll", "modes, design", include_str!("../../machines/roll.toml")),
-    ("axis", "modes, design", include_str!("../../machines/axis.toml")),
-    ("mill", "modes, design", include_str!("../../machines/mill.toml")),
-    ("ship", "modes", include_str!("../../machines/ship.toml")),
-    ("gear-pair", "simulate, modes", include_str!("../../trains/gear-pair.toml")),
-    ("spur-pair", "simulate, modes", include_str!("../../trains/spur-pair.toml")),
-    ("two-stage", "simulate, modes", include_str!("../../trains/two-stage.toml")),
-    ("gear-branch", "simulate, modes", include_str!("../../trains/gear-branch.toml")),
-    ("hoist-start", "simulate, modes", include_str!("../../trains/hoist-start.toml")),
-    ("girder", "simulate, modes", include_str!("../../trains/girder.toml")),
-    ("travel", "simulate, modes", include_str!("../../trains/travel.toml")),
-    ("tilting", "simulate, modes", include_str!("../../trains/tilting.toml")),
-    ("three-discs", "rotor", include_str!("../../rotors/three_discs.toml")),
-    ("fan-balance", "balancing", include_str!("../../rotors/fan-balance.toml")),
-    ("bench-log", "identify, replay", include_str!("../../recordings/two-mass-bench.csv")),
+/// What reads a machine with the settings of a drive, and a train with a run.
+const DRIVE: &str = "modes, design";
+const TRAIN: &str = "simulate, modes";
+
+/// Name, commands that read it, what it is, and text of each.
+const EXAMPLES: [(&str, &str, &str, &str); 16] = [
+    ("hoist", DRIVE, "a crane's hoist of 12 t", include_str!("../../machines/hoist.toml")),
+    ("roll", DRIVE, "a motor, a coupling and a roll", include_str!("../../machines/roll.toml")),
+    ("axis", DRIVE, "a machine tool's feed axis", include_str!("../../machines/axis.toml")),
+    ("mill", DRIVE, "the main drive of a rolling mill", include_str!("../../machines/mill.toml")),
+    ("ship", "modes", "a twin-screw ship with branches", include_str!("../../machines/ship.toml")),
+    ("gear-pair", TRAIN, "a spur pair at its resonance", include_str!("../../trains/gear-pair.toml")),
+    ("spur-pair", TRAIN, "a spur pair on shafts and bearings", include_str!("../../trains/spur-pair.toml")),
+    ("two-stage", TRAIN, "two gear stages in line", include_str!("../../trains/two-stage.toml")),
+    ("gear-branch", TRAIN, "a wheel that drives two machines", include_str!("../../trains/gear-branch.toml")),
+    ("hoist-start", TRAIN, "the hoist lifts its load from the ground", include_str!("../../trains/hoist-start.toml")),
+    ("girder", TRAIN, "the same on an elastic girder", include_str!("../../trains/girder.toml")),
+    ("travel", TRAIN, "a crane's travelling drive reverses", include_str!("../../trains/travel.toml")),
+    ("tilting", TRAIN, "two motors on one ring gear", include_str!("../../trains/tilting.toml")),
+    ("three-discs", "rotor", "three discs on a flexible shaft", include_str!("../../rotors/three_discs.toml")),
+    ("fan-balance", "balancing", "readings of a fan in two planes", include_str!("../../rotors/fan-balance.toml")),
+    (
+        "bench-log",
+        "identify, replay",
+        "a recording of two motors and a coupling",
+        include_str!("../../recordings/two-mass-bench.csv"),
+    ),
 ];
 
 impl Example {
@@ -54,17 +64,24 @@ impl Example {
     pub fn execute(&self) -> Result<(), Failure> {
         let Some(name) = &self.name else {
             if self.json {
-                return say_json(&EXAMPLES.map(|(name, commands, _)| Entry { name, commands, text: None }));
+                return say_json(&EXAMPLES.map(|(name, commands, about, _)| Entry {
+                    name,
+                    commands,
+                    about,
+                    text: None,
+                }));
             }
-            EXAMPLES.iter().for_each(|(name, commands, _)| say(format_args!("{name:<12} {commands}")));
+            for (name, commands, about, _) in EXAMPLES {
+                say(format_args!("{name:<12} {commands:<16} {about}"));
+            }
             return Ok(());
         };
-        let Some(&(name, commands, text)) = EXAMPLES.iter().find(|(known, ..)| known == name) else {
+        let Some(&(name, commands, about, text)) = EXAMPLES.iter().find(|(known, ..)| known == name) else {
             let names = EXAMPLES.map(|(name, ..)| format!("`{name}`")).join(", ");
             return Err(Failure::usage(format!("there is no example `{name}`; there are {names}")));
         };
         if self.json {
-            return say_json(&Entry { name, commands, text: Some(text) });
+            return say_json(&Entry { name, commands, about, text: Some(text) });
         }
         say(text.trim_end());
         Ok(())

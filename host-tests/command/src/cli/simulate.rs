@@ -149,10 +149,10 @@ fn tables(simulation: &Simulation) -> Vec<Section> {
                 forces in N and elongations in m. The dynamic factor K is the greatest size over the static force: \
                 that of the file, or the mean of the second half of the run; elastic, of the spring without its \
                 damper. Extremes are found between the lines of the run, not on them.";
-    let mut all = vec![
-        Section::new("Forces", text, forces),
-        Section::new("Speeds", if simulation.turns { "" } else { "Of ways in m/s." }, speeds),
-    ];
+    let mut all = vec![Section::new("Speeds", if simulation.turns { "" } else { "Of ways in m/s." }, speeds)];
+    if !simulation.links.is_empty() {
+        all.insert(0, Section::new("Forces", text, forces));
+    }
     if let Some(cycle) = &simulation.cycle {
         let mut steady = Table::new([
             "coordinate".to_owned(),

@@ -58,6 +58,8 @@ pub struct Lack {
     pub cause: &'static str,
     /// What gives it all margins, as tried.
     remedy: Option<Remedy>,
+    /// Whether it gives them to the observer of two masses alone, which is then selected.
+    is_of_two: bool,
     /// Whether remedies were tried.
     is_tried: bool,
 }
@@ -109,12 +111,12 @@ fn short(value: f64) -> f64 {
 impl fmt::Display for Remedy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Bandwidth(bandwidth) => write!(f, "with `bandwidth = {bandwidth}` in `[speed_loop]` it has them all"),
+            Self::Bandwidth(bandwidth) => write!(f, "with `bandwidth = {bandwidth}` in `[speed_loop]`"),
             Self::Within(within) => {
-                write!(f, "with `within = {within}` in `[disturbance]`, a faster observer, it has them all")
+                write!(f, "with `within = {within}` in `[disturbance]`, a faster observer,")
             }
             Self::Tolerance(share) => {
-                write!(f, "with {:.0} % of every deviation in `[tolerance]` it has them all", 100.0 * share)
+                write!(f, "with {:.0} % of every deviation in `[tolerance]`", 100.0 * share)
             }
         }
     }
@@ -125,6 +127,7 @@ impl Lack {
     const NEGLECTED: Self = Self {
         cause: "the speed loop with its observer is unstable by a vibration that the two masses leave out",
         remedy: None,
+        is_of_two: false,
         is_tried: false,
     };
 
@@ -137,7 +140,7 @@ impl Lack {
             other => other.message(),
         };
         let cause = sentence.split_once(':').map_or(sentence, |(cause, _)| cause);
-        Self { cause, remedy: None, is_tried: false }
+        Self { cause, remedy: None, is_of_two: false, is_tried: false }
     }
 
     /// With the first remedy that leaves nothing lacking.
@@ -150,7 +153,10 @@ impl Lack {
 impl fmt::Display for Lack {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.remedy {
-            Some(remedy) => write!(f, "{}: {remedy}", self.cause),
+            Some(remedy) => {
+                let observer = if self.is_of_two { "the observer of two masses" } else { "it" };
+                write!(f, "{}: {remedy} {observer} has them all", self.cause)
+            }
             None if self.is_tried => write!(
                 f,
                 "{}: neither less `bandwidth` in `[speed_loop]`, a shorter `within` in `[disturbance]` nor a quarter \
@@ -185,7 +191,12 @@ impl Designs {
             Ok::<_, Error>(lack.map(|lack| lack.with_remedy(machine, two, is_rigid)))
         };
         let two_masses_lack = lack(LoopObserver::TwoMass(&two_masses), false)?;
-        let rigid_lacks = lack(LoopObserver::Rigid(&rigid), true)?;
+        let mut rigid_lacks = lack(LoopObserver::Rigid(&rigid), true)?;
+        if let (Some(one), Some(Lack { remedy: Some(remedy), .. })) = (&mut rigid_lacks, two_masses_lack)
+            && one.remedy.is_none()
+        {
+            *one = Lack { remedy: Some(remedy), is_of_two: true, ..*one };
+        }
         let as_good = nominal.over_tolerances(&rigid_errors.total(), &two_masses_errors.total());
         let is_rigid_refused =
             as_good.chosen == ObserverChoice::Rigid && rigid_lacks.is_some() && two_masses_lack.is_none();

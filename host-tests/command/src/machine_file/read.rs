@@ -26,6 +26,9 @@ use driveline_report::format::significant;
 /// Largest machine file in bytes: a thousand times what the longest chain needs.
 pub const LARGEST: u64 = 1 << 20;
 
+/// Tables that a drive needs; `modes` and `simulate` do without.
+const SETTINGS: [&str; 4] = ["encoder", "control", "disturbance", "limits"];
+
 /// Range of a name.
 const NAME: &str = "a name of 1 to 40 letters, digits, spaces, `-` and `_`, with a letter or digit among them";
 
@@ -80,15 +83,21 @@ pub fn text(path: &Path, what: &str) -> Result<(String, String), Diagnostic> {
 /// # Errors
 /// A [`Diagnostic`] with the place, the key, what was found and what was expected.
 pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
-    parse_up_to(name, text, CAPACITY)
+    parse_up_to(name, text, CAPACITY, true)
 }
 
-/// Reads a machine from a text for its modes, with any number of masses.
+/// Reads a machine from a text for its modes, with any number of masses. Encoder, control, disturbance and limits may be
+/// left out: no drive is designed for it.
 pub fn parse_for_modes(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
-    parse_up_to(name, text, usize::MAX)
+    parse_up_to(name, text, usize::MAX, false)
 }
 
-fn parse_up_to(name: &str, text: &str, most: usize) -> Result<MachineFile, Diagnostic> {
+/// As [`parse_for_modes`], for a run: with as many masses as a chain holds.
+pub(super) fn parse_for_run(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
+    parse_up_to(name, text, CAPACITY, false)
+}
+
+fn parse_up_to(name: &str, text: &str, most: usize, for_drive: bool) -> Result<MachineFile, Diagnostic> {
     let source = Source { name, text };
     let document = document(source, "a machine: `name`, [[element]] tables and the settings")?;
     let mut root = Table::root(source, document.get_ref());
@@ -98,7 +107,17 @@ fn parse_up_to(name: &str, text: &str, most: usize) -> Result<MachineFile, Diagn
     let (branches, train, masses) = branches(source, &mut root, (chain, count), &elements, most)?;
     let error = train.as_ref().map_or(chain.error(), |train| train.error());
     let long = error.and_then(|_| Long::of(&elements, &branches));
-    let encoder = section(&mut root, "encoder", |table| {
+    let missing: Vec<&str> = SETTINGS.into_iter().filter(|key| !root.has(key)).collect();
+    if for_drive && missing.len() > 1 {
+        let tables = missing.join("], [");
+        let expected = format!("the tables [{tables}], as the file of `cargo driveline example roll` has them");
+        return Err(root.wrong(missing[0], expected));
+    }
+    // the largest speed ends the running range where the file has none
+    let is_excited = (root.has("excitation") || root.has("engine")) && !root.has("running");
+    let needed = |key| for_drive || (key == "limits" && is_excited);
+    let none = Encoder { lines: 1, accuracy: Accuracy::NONE };
+    let encoder = section_or(&mut root, "encoder", (!needed("encoder")).then_some(none), |table| {
         // `LINES` and `RATE` allow whole numbers within `u32` only.
         let lines = table.number("lines", Quantity::LINES)?;
         let accuracy = Accuracy {
@@ -109,10 +128,11 @@ fn parse_up_to(name: &str, text: &str, most: usize) -> Result<MachineFile, Diagn
         };
         Ok(Encoder { lines: lines as u32, accuracy })
     })?;
-    let control = section(&mut root, "control", |table| {
+    let control = section_or(&mut root, "control", (!needed("control")).then_some(Control { rate_hz: 1 }), |table| {
         Ok(Control { rate_hz: table.number("rate_hz", Quantity::RATE)? as u32 })
     })?;
-    let disturbance = section(&mut root, "disturbance", |table| {
+    let none = Disturbance { torque_accuracy: 1.0, torque_noise: None, load_torque_step: 1.0, within: 1.0 };
+    let disturbance = section_or(&mut root, "disturbance", (!needed("disturbance")).then_some(none), |table| {
         Ok(Disturbance {
             torque_accuracy: table.number("torque_accuracy", Quantity::TORQUE)?,
             torque_noise: table.number_if("torque_noise", Quantity::TORQUE)?,
@@ -120,7 +140,8 @@ fn parse_up_to(name: &str, text: &str, most: usize) -> Result<MachineFile, Diagn
             within: table.number("within", Quantity::TIME)?,
         })
     })?;
-    let limits = section(&mut root, "limits", |table| {
+    let none = Limits { torque: 1.0, speed: 1.0, rated_torque: 1.0 };
+    let limits = section_or(&mut root, "limits", (!needed("limits")).then_some(none), |table| {
         let torque = table.number("torque", Quantity::TORQUE)?;
         let speed = table.number("speed", Quantity::SPEED)?;
         let rated_torque = table.number_or("rated_torque", Quantity::TORQUE, 0.5 * torque)?;
@@ -302,6 +323,22 @@ pub(super) fn section<T>(
     let settings = read(&mut table)?;
     table.finish()?;
     Ok(settings)
+}
+
+/// Reads a table, or gives what stands for it where the file may do without.
+fn section_or<T>(
+    root: &mut Table<'_>,
+    key: &'static str,
+    without: Option<T>,
+    read: impl FnOnce(&mut Table<'_>) -> Result<T, Diagnostic>,
+) -> Result<T, Diagnostic> {
+    match without {
+        Some(without) if !root.has(key) => {
+            root.pass(&[key]);
+            Ok(without)
+        }
+        _ => section(root, key, read),
+    }
 }
 
 /// Reads the elements and puts them together, so that what cannot follow is reported at its own place. The labels of

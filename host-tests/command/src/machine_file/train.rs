@@ -193,7 +193,7 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
     let (mut labels, mut element_places) = (Vec::new(), Vec::new());
     if root.has("element") {
         root.instead_of("element", &["coordinate", "spur_pair"])?;
-        let machine = read::parse(name, text)?;
+        let machine = read::parse_for_run(name, text)?;
         let branched = machine.branches.iter().flat_map(|branch| &branch.elements);
         labels = machine.elements.iter().chain(branched).map(|part| part.label.clone()).collect();
         let mut tables = root.tables("element")?;

@@ -455,7 +455,11 @@ fn period(recording: &Recording, asked: &Asked) -> Result<f64, Diagnostic> {
         return match asked.rate {
             Some(rate) => Ok(1.0 / rate),
             None => {
-                Err(recording.fault(recording.found(), "a column of time, such as `time_s`, or --rate [samples/s]"))
+                let has = |quantity| recording.signal(quantity).is_some();
+                let lacks = has(Quantity::Current) && !has(Quantity::Torque) && asked.torque_constant.is_none();
+                let constant = if lacks { ", and --torque-constant [N m/A] for the current" } else { "" };
+                let expected = format!("a column of time, such as `time_s`, or --rate [samples/s]{constant}");
+                Err(recording.fault(recording.found(), expected))
             }
         };
     };

@@ -110,7 +110,7 @@ fn slug(title: &str) -> String {
 /// The paths of README, CHANGELOG and all pages of both books.
 pub fn all() -> Vec<Page> {
     let mut paths = vec!["README.md".to_owned(), "CHANGELOG.md".to_owned()];
-    for folder in ["doc", "doc/makers"] {
+    for folder in ["doc", "doc/walks", "doc/makers"] {
         for entry in fs::read_dir(root().join(folder)).unwrap() {
             let name = entry.unwrap().file_name().into_string().unwrap();
             if name.ends_with(".md") {

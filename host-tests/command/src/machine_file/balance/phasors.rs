@@ -130,7 +130,9 @@ pub(super) fn phasors(root: &mut Table<'_>, file: &BalanceFile) -> Result<Measur
     if let Err(refusal) = convention.check(&entry) {
         let mut table = root.table("baseline")?;
         let _ = table.has("readings");
-        return Err(table.wrong("readings", format!("phases in degrees: {refusal}")));
+        return Err(
+            table.wrong("readings", format!("phases in degrees, or `angle_unit = \"radians\"` above it: {refusal}"))
+        );
     }
     if let Some(plane) = procedure.influence().ok().and_then(|influence| influence.unknown()) {
         let expected = format!("a [[trial]] of plane \"{}\": its influence is not known", planes[plane]);
