@@ -186,6 +186,7 @@ fn every_command_gives_the_same_answer() {
         let campaign = answer(folder, &["campaign", "m.toml", "--draw", "0"]);
         let replay = answer(folder, &["replay", "swing.csv", "--machine", "m.toml", "--json"]);
         let simulate = answer(folder, &["simulate", "run.toml", "--json"]);
+        let of_drive = [&design, &new, &library, &fmu, &campaign, &replay];
         let all = [&design, &modes, &new, &library, &fmu, &campaign, &replay, &simulate];
         let machine = match parse("m.toml", &text) {
             Ok(machine) => machine,
@@ -194,7 +195,9 @@ fn every_command_gives_the_same_answer() {
                 let sentence = sentence.lines().next().unwrap().trim_start_matches("m.toml");
                 let quoted = serde_json::to_string(sentence).unwrap();
                 let same = |said: &str| said.contains(sentence) || said.contains(quoted.trim_matches('"'));
-                assert!(all.iter().all(|(taken, said)| !taken && same(said)), "{what}: {sentence}: {all:?}");
+                // modes and a run need no settings of a drive
+                let asked = if fault.found == "nothing" { &of_drive[..] } else { &all[..] };
+                assert!(asked.iter().all(|(taken, said)| !taken && same(said)), "{what}: {sentence}: {all:?}");
                 refused += 1;
                 continue;
             }

@@ -18,13 +18,6 @@ fn driveline(arguments: &[&str]) -> Output {
 }
 
 #[test]
-fn the_command_explains_itself_with_examples() {
-    let output = driveline(&["rotor", "--help"]);
-    let help = String::from_utf8(output.stdout).unwrap();
-    assert!(output.status.success() && help.contains("Examples:") && help.contains("--json"), "{help}");
-}
-
-#[test]
 fn json_holds_the_critical_speeds_of_the_file() {
     let output = driveline(&["rotor", FILE, "--json"]);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
