@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use driveline::configure::Rating;
 use driveline::design::{
     ClosedLoop, Error, EstimateError, LoopObserver, ObserverChoice, ObserverSelection, Penalty, Plant, PredictedErrors,
     RigidDesign, StepChoice,
@@ -404,6 +405,14 @@ impl Plan {
                  lighter load is expected",
                 significant(weight),
                 significant(torque)
+            ));
+        }
+        let speed = machine.limits.speed;
+        if !machine.rating().is_within(machine.chain.masses()[0], Rating::PERIPHERAL_SPEED) {
+            self.warnings.push(format!(
+                "`limits.speed`, {} rad/s, is too fast for a rotor of the motor's inertia: r/min are expected as {}",
+                significant(speed),
+                significant(speed * core::f64::consts::TAU / 60.0)
             ));
         }
         if let Some(shaft) = self.shaft.as_ref().filter(|shaft| shaft.reduction_error > Shaft::LARGE_REDUCTION_ERROR) {

@@ -72,7 +72,7 @@ impl Example {
                 }));
             }
             for (name, commands, about, _) in EXAMPLES {
-                say(format_args!("{name:<12} {commands:<16} {about}"));
+                say(format_args!("{name:<12} {commands:<17} {about}"));
             }
             return Ok(());
         };

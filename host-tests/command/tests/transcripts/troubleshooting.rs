@@ -19,7 +19,7 @@ fn rows(heading: &str) -> BTreeSet<String> {
 }
 
 /// Makes a file of an example by a change with `sed`, and gives it to a command.
-const PROVOKED: [(&str, &str); 19] = [
+const PROVOKED: [(&str, &str); 20] = [
     ("the tables [encoder], … as the file of", "sed '/^.encoder/,$d' roll.toml > m.toml; design m.toml"),
     ("found an unknown key, expected only", "sed 's/damping/dampng/' roll.toml > m.toml; modes m.toml"),
     ("expected a number, 1e-12 to 1e12", "sed 's/= 0.48/= -0.48/' roll.toml > m.toml; modes m.toml"),
@@ -41,6 +41,10 @@ const PROVOKED: [(&str, &str); 19] = [
     ("one mass would do, but lacks margin", "design roll.toml"),
     ("it has branches; leave them out", "new twin --machine ship.toml"),
     ("the weight of … is not held by", "sed 's/= 12000.0/= 24000.0/' hoist.toml > m.toml; new heavy --machine m.toml"),
+    (
+        "is too fast for a rotor of the motor's inertia",
+        "sed 's/speed = 150.0/speed = 1500.0/' roll.toml > m.toml; design m.toml",
+    ),
     ("exists and is not empty; name a new folder", "mkdir full; touch full/x; new full"),
     ("expected a column of time, … or --rate", "identify bench.csv"),
     (
