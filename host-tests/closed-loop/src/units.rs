@@ -45,7 +45,8 @@ impl Units {
         }
     }
 
-    fn value(&self, word: u32, base: f64) -> f64 {
+    /// A word as a quantity with a base of its own.
+    pub fn value(&self, word: u32, base: f64) -> f64 {
         match self.words {
             Words::Single => f64::from(f32::from_bits(word)),
             Words::Fixed => Fixed::from_bits(word as i32).to_f64() * base,

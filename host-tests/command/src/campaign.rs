@@ -16,6 +16,7 @@ mod draw;
 pub mod drive;
 mod figure;
 pub mod file;
+pub mod file_drive;
 pub mod merge;
 mod page;
 mod plain;

@@ -4,7 +4,7 @@ use driveline_firmware::Words;
 use driveline_firmware::scene::Scene;
 use driveline_firmware::scenes::Row;
 
-use super::file::FileObserver;
+use super::file_drive::FileObserver;
 use super::plain::PlainLoop;
 use super::scenes::CampaignScene;
 use driveline_closed_loop::scenario::Machine;
@@ -27,7 +27,7 @@ const PLAIN: &str = "plain";
 
 impl Drive {
     /// The design's choice in `f32`, the variant with this number, observer and rate, or `plain`. Of a machine file the
-    /// choice over its tolerances, `two-mass`, `rigid` or `plain`.
+    /// choice over its tolerances, the name of an observer, or `plain`.
     pub fn named(scene: &CampaignScene, machine: &Machine, name: Option<&str>) -> Result<Self, String> {
         let (observer, rate) = machine.chosen;
         if scene.file().is_some() {
@@ -36,9 +36,9 @@ impl Drive {
             return match found {
                 Some(observer) => Ok(Self::File(observer, rate)),
                 None if name == PLAIN => Ok(Self::Plain(rate)),
-                None => {
-                    Err(format!("there is no drive `{name}` for a machine file; expected two-mass, rigid or plain"))
-                }
+                None => Err(format!(
+                    "there is no drive `{name}` for a machine file; expected two-mass, semi-implicit, rigid or plain"
+                )),
             };
         }
         let usual = format!("f32/{observer}/{rate}");
@@ -68,7 +68,7 @@ impl Drive {
     pub fn lacks(&self, scene: &CampaignScene) -> Option<String> {
         let designs = &scene.file()?.designs;
         let lack = match self {
-            Self::File(FileObserver::TwoMass, _) => designs.two_masses_lack,
+            Self::File(FileObserver::TwoMass | FileObserver::SemiImplicit, _) => designs.two_masses_lack,
             Self::File(FileObserver::Rigid, _) => designs.rigid_lacks,
             Self::Variant(_) | Self::Plain(_) => None,
         };

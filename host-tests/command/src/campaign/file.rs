@@ -1,18 +1,12 @@
 //! A machine file as a scene of campaigns: its plant, a run that its load cycle makes, and its drives.
 
-use driveline::design::SpeedLoopDesign;
-use driveline::drive::{Composition, Config, ConfigOf, Drive, Limits};
-use driveline::governor::{SpeedLoop, SpeedLoopConfig};
-use driveline::observer::{
-    GearedConfig, GearedObserver, LoadGearConfig, LoadGearObserver, RigidConfig, RigidObserver, TwoMassConfig,
-    TwoMassObserver,
-};
-use driveline::settings::{Bases, SpeedLoopSettings};
-use driveline_firmware::scene::composed::OverWords;
-use driveline_firmware::scene::{Input, Output, Scene};
+use driveline::settings::Bases;
+use driveline_firmware::Words;
+use driveline_firmware::scene::Scene;
 use driveline_solver::plant::train::{Coordinate, Link, RigidGear, Source, Train};
 use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft, Start};
 
+use super::file_drive::{FileObserver, start};
 use crate::machine_file::MachineFile;
 use crate::machine_file::designs::{BRANCHES, Designs, NO_SHAFT};
 use crate::machine_file::train::too_stiff;
@@ -20,28 +14,6 @@ use driveline_closed_loop::departure::Departure;
 use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::scenario::{Action, Machine, Scenario};
 use driveline_closed_loop::sensors::Encoder;
-
-/// The observer of a file's drive, in `f32`, with the exact step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FileObserver {
-    /// Two masses.
-    TwoMass,
-    /// One mass.
-    Rigid,
-}
-
-impl FileObserver {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::TwoMass, Self::Rigid];
-
-    /// Its name on the command line.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::TwoMass => "two-mass",
-            Self::Rigid => "rigid",
-        }
-    }
-}
 
 /// A machine of a file with its designs.
 #[derive(Clone, Debug)]
@@ -175,35 +147,9 @@ impl FileCase {
         self.machine.control.rate_hz
     }
 
-    /// The drive with an observer, at rest.
+    /// The drive with an observer in `f32`, at rest.
     pub fn start(&self, observer: FileObserver) -> Result<Box<dyn Scene>, String> {
-        let Designs { two, two_masses, rigid, speed_loop, ramp, .. } = &self.designs;
-        let sentence = |error: driveline::settings::Error| error.to_string();
-        let (rate, encoder, _) = self.machine.tuning();
-        let rating = self.machine.rating();
-        let limits = Limits::<f32>::try_new(&rating.screening(encoder, rate), Bases::SI).map_err(sentence)?;
-        let governor = governor(speed_loop, rating.torque_limit.0, *ramp)?;
-        let (gear, behind) = self.machine.drive_gears(two, false)?;
-        let period = 1.0 / f64::from(self.rate());
-        match observer {
-            FileObserver::TwoMass => {
-                let config = TwoMassConfig::<f32>::try_new(two_masses, Bases::SI).map_err(sentence)?;
-                let observer = GearedConfig::<f32, _>::try_new(config, &gear, period, Bases::SI).map_err(sentence)?;
-                let observer =
-                    LoadGearConfig::<f32, _>::try_new(observer, &behind, period, Bases::SI).map_err(sentence)?;
-                let config = Config { limits, observer, fluctuation: (), governor, balancer: () };
-                Ok(Observed::<Driven<TwoMassObserver>>::boxed(config))
-            }
-            FileObserver::Rigid => {
-                let share = two.load_inertia / two.total_inertia();
-                let config = RigidConfig::<f32>::try_new(rigid, share, Bases::SI).map_err(sentence)?;
-                let observer = GearedConfig::<f32, _>::try_new(config, &gear, period, Bases::SI).map_err(sentence)?;
-                let observer =
-                    LoadGearConfig::<f32, _>::try_new(observer, &behind, period, Bases::SI).map_err(sentence)?;
-                let config = Config { limits, observer, fluctuation: (), governor, balancer: () };
-                Ok(Observed::<Driven<RigidObserver>>::boxed(config))
-            }
-        }
+        start(&self.machine, &self.designs, observer, Words::Single).map(|(drive, _)| drive)
     }
 }
 
@@ -253,40 +199,6 @@ fn departing([ahead, back]: [f64; 2], by: &Departure) -> [f64; 2] {
     // a gear that locks itself stays one
     let least = if back > 0.0 { LEAST_EFFICIENCY } else { f64::NEG_INFINITY };
     [(ahead + by.efficiency).clamp(LEAST_EFFICIENCY, 1.0), (back + by.efficiency).clamp(least, 1.0)]
-}
-
-fn governor(design: &SpeedLoopDesign, torque_limit: f64, ramp: f64) -> Result<SpeedLoopConfig<f32>, String> {
-    let settings = SpeedLoopSettings { torque_limit, ramp };
-    SpeedLoopConfig::<f32>::try_new(design, settings, Bases::SI).map_err(|error| error.to_string())
-}
-
-/// A drive whose observer lies between gears with losses, with a speed loop.
-type Driven<O> = Drive<f32, LoadGearObserver<GearedObserver<O>>, SpeedLoop>;
-
-/// A drive with its constants.
-struct Observed<D: Composition> {
-    drive: D,
-    config: ConfigOf<D>,
-}
-
-impl<D: Composition<Config: Clone + 'static> + Clone + 'static> Observed<D> {
-    fn boxed(config: ConfigOf<D>) -> Box<dyn Scene> {
-        Box::new(Self { drive: D::new(&config, 0), config })
-    }
-}
-
-impl<D: Composition<Config: Clone + 'static> + Clone + 'static> Scene for Observed<D> {
-    fn tick(&mut self, input: &Input) -> Output {
-        self.drive.advance(&self.config, input)
-    }
-
-    fn missed(&mut self, input: &Input, ticks: u32) -> u32 {
-        self.drive.make_up_before(&self.config, input, ticks)
-    }
-
-    fn copy(&self) -> Option<Box<dyn Scene>> {
-        Some(Box::new(Self { drive: self.drive.clone(), config: self.config.clone() }))
-    }
 }
 
 /// A torque of a plant.
