@@ -7,4 +7,4 @@ mod read;
 
 pub use angle::unwrapped;
 pub use column::{Column, Quantity, Scales};
-pub use read::{Asked, Recording, read_recording};
+pub use read::{Asked, Recording, parse, read_recording};

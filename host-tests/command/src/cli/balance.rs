@@ -1,49 +1,29 @@
 //! `cargo driveline balancing`: from readings of the field to weights.
 
 mod amplitudes;
+#[cfg(not(target_family = "wasm"))]
+mod command;
 mod fault;
 mod grade;
 mod weight;
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
 
-use clap::Args;
 use driveline::balancing::{Aim, Complex, Correction, Error, Influence};
 use serde::Serialize;
 
-use super::results::{Destination, check};
-use super::{Failure, say, say_json};
-use crate::machine_file::balance::{BalanceFile, Measured, PLANES, ROWS, read};
+use super::Failure;
+use crate::machine_file::balance::{BalanceFile, Measured, PLANES, ROWS};
 use driveline_report::chart::polar;
 use driveline_report::format::{percent, significant, turned};
 use driveline_report::{Arrangement, Fact, Figure, Key, Section, Sheet, Table};
 
+#[cfg(not(target_family = "wasm"))]
+pub use command::Balance;
 use fault::Fault;
 use grade::{Grade, grade};
 pub use weight::Polar;
 use weight::{Hole, arrow, arrows_of, fill, told};
-
-/// Find correction weights from the readings of a rotor's runs, the predicted residual, and the grade; the page has
-/// polar plots.
-///
-/// The file has the planes, the sensors, a baseline and a trial run for each plane, with phases in degrees.
-#[derive(Debug, Args)]
-#[command(after_help = "Examples:
-  cargo driveline example fan-balance > fan-balance.toml
-  cargo driveline balancing fan-balance.toml
-  cargo driveline balancing my.toml --html my.html
-  cargo driveline balancing my.toml --json")]
-pub struct Balance {
-    /// The readings: a TOML file
-    file: PathBuf,
-    /// File of the page [default: report/NAME-balancing.html]
-    #[arg(long, value_name = "PATH")]
-    html: Option<PathBuf>,
-    /// Print JSON, and write a page only with --html
-    #[arg(long)]
-    pub json: bool,
-}
 
 /// A reading before and after.
 #[derive(Clone, Debug, Serialize)]
@@ -112,47 +92,20 @@ struct Outcome {
     grade: Option<Grade>,
 }
 
-impl Balance {
-    /// Reads the file and shows the weights.
-    ///
-    /// # Errors
-    /// A file with a fault; readings that no weights follow from; a page that cannot be written.
-    pub fn execute(&self) -> Result<(), Failure> {
-        let file = read(&self.file)?;
-        if let Measured::Amplitudes { baseline, found } = &file.measured {
-            let found = amplitudes::outcome(&file, *baseline, found).map_err(|fault| self.said(fault))?;
-            return self.show(&file, &found, &found.said(), || found.page());
-        }
-        let outcome = outcome(&file).map_err(|fault| self.said(fault))?;
-        self.show(&file, &outcome, &said(&outcome), || page(&outcome))
-    }
-
-    fn said(&self, fault: Fault) -> Failure {
-        match fault {
-            Fault::Placed(diagnostic) => diagnostic.into(),
-            Fault::Refused(refusal) => Failure::failed(format!("{}: {refusal}", self.file.display())),
-        }
-    }
-
-    /// Prints JSON or what there is to say, and writes the page.
-    fn show(
-        &self,
-        file: &BalanceFile,
-        outcome: &impl Serialize,
-        said: &str,
-        page: impl FnOnce() -> Sheet,
-    ) -> Result<(), Failure> {
-        let slug: String =
-            file.name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' }).collect();
-        let file = Destination::page_unless(self.json, self.html.as_deref(), &format!("{slug}-balancing"));
-        check(&[&self.file], &file)?;
-        if self.json {
-            say_json(outcome)?;
-        } else {
-            say(said);
-        }
-        file.map_or(Ok(()), |file| file.write_and_say(&page().page(), self.json))
-    }
+/// The page of weights.
+///
+/// # Errors
+/// Readings that no weights follow from, with the place in the file where there is one.
+pub fn answered(file: &BalanceFile) -> Result<String, Failure> {
+    let failed = |fault| match fault {
+        Fault::Placed(diagnostic) => Failure::from(diagnostic),
+        Fault::Refused(refusal) => Failure::failed(refusal.to_string()),
+    };
+    let sheet = match &file.measured {
+        Measured::Amplitudes { baseline, found } => amplitudes::outcome(file, *baseline, found).map(|it| it.page()),
+        Measured::Phasors { .. } => outcome(file).map(|outcome| page(&outcome)),
+    };
+    Ok(sheet.map_err(failed)?.page())
 }
 
 /// All that is said on the terminal.

@@ -1,97 +1,27 @@
 //! `cargo driveline design`: observer and governor of a machine.
 
+#[cfg(not(target_family = "wasm"))]
+mod command;
 mod crossings;
 mod linear;
 mod page;
 mod responses;
 
+#[cfg(not(target_family = "wasm"))]
+pub use command::Design;
 use std::f64::consts::TAU;
-use std::path::PathBuf;
-
-use clap::{Args, ValueEnum};
 
 use self::page::page;
 use self::responses::Responses;
 use super::controller::{Causes, LeastMargins, Margins, Predicted, SpeedLoop};
-use super::project::tolerance;
-use super::results::{Destination, check};
-use super::{Failure, Plan, rust, say, say_json};
+use super::emit::tolerance;
+use super::{Plan, rust};
+use crate::machine_file::MachineFile;
 use crate::machine_file::class::Class;
 use crate::machine_file::designs::Designs;
-use crate::machine_file::{MachineFile, read};
 use driveline::design::{Actuator, Spread, Tolerance};
 use driveline_report::Table;
 use driveline_report::format::{counted, percent, rate, significant};
-
-/// Design observer and governor of a machine: reduction, step, gains, poles, predicted deviations, margins.
-///
-/// The same functions design a firmware's constants at compile time; with --emit rust they are printed to paste.
-#[derive(Debug, Args)]
-#[command(after_help = "Examples:
-  cargo driveline example hoist > hoist.toml
-  cargo driveline design hoist.toml
-  cargo driveline design my.toml --emit rust > src/my_machine.rs
-  cargo driveline design my.toml --html my.html
-  cargo driveline design my.toml --json")]
-pub struct Design {
-    /// The machine: a TOML file of elements from the motor to the load
-    file: PathBuf,
-    /// Print constants to paste into a firmware, instead of the tables
-    #[arg(long, value_name = "LANGUAGE")]
-    emit: Option<Language>,
-    /// Write a page: Bode and Nyquist plots of the loop, machine, observer, steps, margins, poles
-    #[arg(long, value_name = "PATH", alias = "page")]
-    html: Option<PathBuf>,
-    /// Print JSON, with the responses as arrays; with --emit, {"rust": "..."}
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// Kinds of output to paste.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Language {
-    /// Constants in the words of the library
-    Rust,
-}
-
-impl Design {
-    /// Reads the machine and designs its controller.
-    ///
-    /// # Errors
-    /// A machine file with a fault; a machine that cannot be observed or governed so. A speed loop that lacks margins, of
-    /// which the design is printed; of an unstable one no constants.
-    pub fn execute(&self) -> Result<(), Failure> {
-        let machine = read(&self.file)?;
-        let html = self.html.as_ref().map(|path| Destination::chosen("page", path));
-        check(&[&self.file], &html)?;
-        let refused = |error: String| Failure::usage(format!("{}: no drive can be made: {error}", self.file.display()));
-        let plan = Plan::with_dampers(&machine).map_err(refused)?;
-        let speed_loop = plan.speed_loop.as_ref();
-        let unstable = speed_loop.and_then(|governor| governor.no_margins.as_ref());
-        if let (Some(_), Some(why)) = (self.emit, unstable) {
-            return Err(Failure::failed(format!("{}: no constants are printed: {why}", self.file.display())));
-        }
-        let drawn = || responses(&machine).map_err(refused);
-        match (self.emit, self.json) {
-            (Some(Language::Rust), true) => {
-                say_json(&serde_json::json!({ "rust": emitted(&machine, &plan).map_err(refused)? }))?;
-            }
-            (Some(Language::Rust), false) => say(emitted(&machine, &plan).map_err(refused)?.trim_end()),
-            (None, true) => say_json(&Whole { plan: &plan, responses: drawn()? })?,
-            (None, false) => say(text(&machine, &plan)),
-        }
-        if let Some(html) = html {
-            html.write_and_say(&page(&plan, drawn()?.as_ref()), self.json)?;
-        }
-        let lack = |which: &str, why: &String| {
-            Failure::failed(format!("{}: the speed loop {which} margins: {why}", self.file.display()))
-        };
-        if let Some(why) = unstable {
-            return Err(lack("has no", why));
-        }
-        speed_loop.and_then(|governor| governor.not_robust.as_ref()).map_or(Ok(()), |why| Err(lack("lacks", why)))
-    }
-}
 
 /// The design with the arrays of its loop.
 #[derive(serde::Serialize)]
@@ -100,6 +30,33 @@ struct Whole<'p> {
     plan: &'p Plan,
     /// `null` where the machine has no shaft.
     responses: Option<Responses>,
+}
+
+/// The design as a page in a browser has it.
+#[derive(Debug)]
+pub struct Answered {
+    /// What `--json` prints, where that is asked for: it takes longer than the page.
+    pub json: Option<String>,
+    /// What `--html` writes.
+    pub page: String,
+    /// The constants of a loop that is stable.
+    pub rust: Option<String>,
+}
+
+impl Answered {
+    /// Of a machine.
+    ///
+    /// # Errors
+    /// The library's sentence for a machine that cannot be observed or governed.
+    pub fn of(machine: &MachineFile, with_json: bool) -> Result<Self, String> {
+        let plan = Plan::with_dampers(machine)?;
+        let responses = responses(machine)?;
+        let page = page(&plan, responses.as_ref());
+        let is_stable = plan.speed_loop.as_ref().is_none_or(|governor| governor.no_margins.is_none());
+        let rust = is_stable.then(|| emitted(machine, &plan)).transpose()?;
+        let json = with_json.then(|| serde_json::to_string(&Whole { plan: &plan, responses })).transpose();
+        Ok(Self { json: json.map_err(|error| error.to_string())?, page, rust })
+    }
 }
 
 /// The responses of the loop; none where the machine has no shaft.

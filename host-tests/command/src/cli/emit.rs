@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use driveline::design::SpeedLoopTuning;
+use driveline::design::{SpeedLoopTuning, Spread, Tolerance};
 use driveline::machine::{Damper, Member};
 
 use crate::machine_file::{Branch, DamperKind, DamperRing, Element, MachineFile, Part};
@@ -191,4 +191,21 @@ const fn words_of(element: &Element) -> &'static [&'static str] {
         Element::Lifted { .. } | Element::Driven { .. } => &["Mass"],
         Element::Backlash { .. } => &["Gap"],
     }
+}
+
+/// The tolerances that the speed loop is tested with, where they are not the usual ones.
+pub fn tolerance(machine: &MachineFile) -> Vec<String> {
+    let (own, usual) = (machine.tolerance(), Tolerance::USUAL);
+    let spreads = [
+        ("motor_inertia", own.motor_inertia, usual.motor_inertia),
+        ("load_inertia", own.load_inertia, usual.load_inertia),
+        ("stiffness", own.stiffness, usual.stiffness),
+        ("torque", own.torque, usual.torque),
+    ];
+    let spread = |(name, own, usual): (&str, Spread, Spread)| {
+        (own != usual).then(|| format!("{name}: Spread::between({:?}, {:?})", own.min, own.max))
+    };
+    let late = (own.late != usual.late).then(|| format!("late: {}", own.late));
+    let lag = (own.lag != usual.lag).then(|| format!("lag: {:?}", own.lag));
+    spreads.into_iter().filter_map(spread).chain(late).chain(lag).collect()
 }

@@ -1,17 +1,34 @@
-//! Standard output: texts and JSON.
+//! Standard output: texts and JSON, or a string in its place.
 
+use std::cell::RefCell;
+use std::fmt::Write as _;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::failure::Failure;
 
 /// Writes to standard output. A reader that has gone away (`| head`) is no error.
 pub fn say(text: impl std::fmt::Display) {
-    use std::io::{ErrorKind, Write};
+    use std::io::{ErrorKind, Write as _};
+    if TAKEN.with_borrow_mut(|taken| taken.as_mut().map(|taken| writeln!(taken, "{text}"))).is_some() {
+        return;
+    }
     let mut out = std::io::stdout();
     let written = writeln!(out, "{text}").and_then(|()| out.flush());
     if written.is_err_and(|error| error.kind() != ErrorKind::BrokenPipe) {
         UNSAID.store(true, Ordering::Relaxed);
     }
+}
+
+thread_local! {
+    /// What this thread says while it is taken.
+    static TAKEN: RefCell<Option<String>> = const { RefCell::new(None) };
+}
+
+/// What a call on this thread writes to standard output, in a string, beside its result.
+pub fn taken<R>(call: impl FnOnce() -> R) -> (String, R) {
+    TAKEN.set(Some(String::new()));
+    let result = call();
+    (TAKEN.take().unwrap_or_default(), result)
 }
 
 /// Standard output could not be written.

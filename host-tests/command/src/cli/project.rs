@@ -7,7 +7,7 @@ mod part;
 mod source;
 mod template;
 
-pub use description::{Number, Project, name_of_c, tolerance};
+pub use description::{Number, Project, name_of_c};
 pub use folder::{is_free, write};
 pub use part::{Part, PartOptions};
 pub use source::Source;

@@ -4,7 +4,8 @@ use clap::{Args, CommandFactory, ValueEnum};
 use clap_complete::Shell as Completed;
 use clap_mangen::Man;
 
-use super::{Cli, Failure, say};
+use super::command_line::Cli;
+use super::{Failure, say};
 
 /// Print completions of `cargo-driveline` for a shell, or its manual page.
 #[derive(Debug, Args)]

@@ -11,7 +11,12 @@ macro_rules! factors {
             $($(#[$text])* $factor,)+
         }
 
-        impl Factor {
+        /// Longest delay of the torque that a campaign's actuator has room for (ticks).
+const MAX_DELAY: f64 = 3.0;
+#[cfg(not(target_family = "wasm"))]
+const _: () = assert!(MAX_DELAY == driveline_closed_loop::actuator::MAX_DELAY);
+
+impl Factor {
             /// All.
             pub const ALL: &[Self] = &[$(Self::$factor),+];
 
@@ -147,7 +152,7 @@ impl Factor {
             Self::Efficiency => (-0.5, 0.05),
             Self::TorqueOffset => (-1.0, 1.0),
             Self::Cogging | Self::Interpolation | Self::MissedTicks => (0.0, 1.0),
-            Self::Delay => (0.0, driveline_closed_loop::actuator::MAX_DELAY),
+            Self::Delay => (0.0, MAX_DELAY),
             Self::Lag | Self::Jitter => (0.0, 0.1),
             Self::Eccentricity => (0.0, 0.5),
         }

@@ -282,7 +282,11 @@ impl<'a> Head<'a> {
     }
 }
 
-fn parse(name: &str, text: &str, asked: &Asked) -> Result<Recording, Diagnostic> {
+/// Reads a recording from a text.
+///
+/// # Errors
+/// As [`read_recording`].
+pub fn parse(name: &str, text: &str, asked: &Asked) -> Result<Recording, Diagnostic> {
     let source = Source { name, text };
     let Head { mut reader, delimiter, headings, columns, unused } = Head::of(source, asked)?;
     let broken = |error: csv::Error| Diagnostic::of_file(name, error.to_string(), "a table in CSV");

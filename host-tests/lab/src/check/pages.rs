@@ -12,9 +12,9 @@ fn is_installed() -> bool {
     std::env::split_paths(&path).any(|place| BROWSERS.iter().any(|name| place.join(name).is_file()))
 }
 
-/// Every page that a command writes within seconds, and the scope.
+/// Every page that a command writes within seconds, the scope, and the design.
 pub fn quick(voice: &Voice) -> Result<Count, Failed> {
-    in_browser(2, &["in_a_browser", "--skip", OF_FIRMWARE], voice)
+    in_browser(3, &["in_a_browser", "--skip", OF_FIRMWARE], voice)
 }
 
 /// The pages of commands that compile and run firmware.

@@ -40,18 +40,26 @@ pub struct Curve {
 
 impl Curve {
     fn of(response: &[Complex<f64>]) -> Self {
+        Self::whole(response).short()
+    }
+
+    /// In six digits.
+    fn short(self) -> Self {
+        let short = |values: Vec<f64>| values.into_iter().map(short).collect();
+        Self { gain: short(self.gain), phase: short(self.phase) }
+    }
+
+    /// In all digits.
+    fn whole(response: &[Complex<f64>]) -> Self {
         let mut turned = 0.0;
         let mut before: Option<f64> = None;
         let phase = |value: &Complex<f64>| {
             let angle = value.arg();
             turned -= before.map_or(0.0, |before| TAU * ((angle - before) / TAU).round());
             before = Some(angle);
-            short((angle + turned).to_degrees())
+            (angle + turned).to_degrees()
         };
-        Self {
-            gain: response.iter().map(|value| short(value.norm())).collect(),
-            phase: response.iter().map(phase).collect(),
-        }
+        Self { gain: response.iter().map(|value| value.norm()).collect(), phase: response.iter().map(phase).collect() }
     }
 }
 
@@ -71,7 +79,7 @@ impl Range {
             let first = all.next().cloned().unwrap_or_default();
             all.fold(first, |found, one| found.iter().zip(one).map(|(a, b)| better(*a, *b)).collect())
         };
-        let curve = |better| Curve { gain: over(|c| &c.gain, better), phase: over(|c| &c.phase, better) };
+        let curve = |better| Curve { gain: over(|c| &c.gain, better), phase: over(|c| &c.phase, better) }.short();
         Self { least: curve(f64::min), most: curve(f64::max) }
     }
 }
@@ -251,8 +259,9 @@ impl Responses {
             let steps = is_stable.then(|| Steps::of(&linear, ticks, stride));
             Ok::<_, Error>(One::of(one, &frequencies, period, &linear, steps))
         };
-        let plants: Vec<Curve> = within.iter().map(|(_, one)| Curve::of(&mobility(&one.body, &frequencies))).collect();
-        let curves: Vec<Curve> = of_loops.iter().map(|one| Curve::of(one)).collect();
+        let plants: Vec<Curve> =
+            within.iter().map(|(_, one)| Curve::whole(&mobility(&one.body, &frequencies))).collect();
+        let curves: Vec<Curve> = of_loops.iter().map(|one| Curve::whole(one)).collect();
         Ok(Self {
             cut: CUT,
             nominal: one(&nominal)?,

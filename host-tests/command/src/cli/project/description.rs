@@ -3,14 +3,14 @@
 use std::f64::consts::TAU;
 
 use driveline::configure::Rating;
-use driveline::design::{Actuator, Spread, Tolerance};
+use driveline::design::Actuator;
 use driveline::machine::{Damper, Losses};
 use serde::Serialize;
 
 use super::{Part, PartOptions, Source};
 use crate::cli::Failure;
 use crate::cli::controller::Plan;
-use crate::cli::emit::{dampers, encoder, has_tuning, tuning, words, written};
+use crate::cli::emit::{dampers, encoder, has_tuning, tolerance, tuning, words, written};
 use crate::machine_file::designs::{BRANCHES, NO_SHAFT};
 use crate::machine_file::{DamperRing, MachineFile};
 
@@ -283,23 +283,6 @@ impl Project {
     pub fn observer(&self) -> &str {
         &self.observer
     }
-}
-
-/// The tolerances that the speed loop is tested with, where they are not the usual ones.
-pub fn tolerance(machine: &MachineFile) -> Vec<String> {
-    let (own, usual) = (machine.tolerance(), Tolerance::USUAL);
-    let spreads = [
-        ("motor_inertia", own.motor_inertia, usual.motor_inertia),
-        ("load_inertia", own.load_inertia, usual.load_inertia),
-        ("stiffness", own.stiffness, usual.stiffness),
-        ("torque", own.torque, usual.torque),
-    ];
-    let spread = |(name, own, usual): (&str, Spread, Spread)| {
-        (own != usual).then(|| format!("{name}: Spread::between({:?}, {:?})", own.min, own.max))
-    };
-    let late = (own.late != usual.late).then(|| format!("late: {}", own.late));
-    let lag = (own.lag != usual.lag).then(|| format!("lag: {:?}", own.lag));
-    spreads.into_iter().filter_map(spread).chain(late).chain(lag).collect()
 }
 
 /// What the machine's file takes from `driveline::design`.
