@@ -46,7 +46,7 @@ impl<D: OverWords> Ticks for InRust<D> {
 
 /// Inputs and outputs of the drive in Rust, in closed loop with the full solver of the hoist: a start with the load
 /// hanging, half a load more, lowering.
-fn run<N: Stiction>(words: Words) -> Vec<(Input, Output)>
+pub fn run<N: Stiction>(words: Words) -> Vec<(Input, Output)>
 where
     HoistDrive<N>: Configure<hoist::Hoist, N, Config = ConfigOf<HoistDrive<N>>>,
 {
@@ -60,6 +60,8 @@ where
     words
 }
 
+/// The file that the machine in Rust is written from.
+pub const MACHINE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../command/machines/hoist.toml");
 const TESTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/images/export");
 
 /// The library as `export` writes it, in a folder of its own.
@@ -72,9 +74,8 @@ impl Exported {
     fn new(core: &str, number: &str, target: Option<&'static str>) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let out = folder.path().join("hoist");
-        let machine = concat!(env!("CARGO_MANIFEST_DIR"), "/../command/machines/hoist.toml");
         let ended = Command::new(env!("CARGO_BIN_EXE_lab"))
-            .args(["export", "c", machine, "--core", core, "--number", number, "--out"])
+            .args(["export", "c", MACHINE, "--core", core, "--number", number, "--out"])
             .arg(&out)
             .output()
             .unwrap();
@@ -88,16 +89,9 @@ impl Exported {
 
     /// Runs the inputs through a program that reads `input` and writes `output` in a folder.
     fn run(&self, command: &mut Command, run: &[(Input, Output)]) -> Vec<[u32; 8]> {
-        let words = |input: &Input| {
-            let Input { angle, torque, setpoint, flags, vibration, asked } = *input;
-            [angle, torque, setpoint, flags, vibration[0], vibration[1], asked[0], asked[1]].map(u32::to_le_bytes)
-        };
-        let bytes: Vec<u8> = run.iter().flat_map(|(input, _)| words(input)).flatten().collect();
-        fs::write(self.folder.path().join("input"), bytes).unwrap();
+        fs::write(self.folder.path().join("input"), words(run)).unwrap();
         ended_well(&command.current_dir(self.folder.path()).output().unwrap());
-        let bytes = fs::read(self.folder.path().join("output")).unwrap();
-        let word = |bytes: &[u8]| u32::from_le_bytes(bytes.try_into().unwrap());
-        bytes.chunks_exact(32).map(|row| std::array::from_fn(|at| word(&row[4 * at..4 * at + 4]))).collect()
+        rows(&fs::read(self.folder.path().join("output")).unwrap())
     }
 
     /// The drive in Rust as a static library, compiled of the same machine.
@@ -114,15 +108,30 @@ impl Exported {
     }
 }
 
+/// The inputs as a file.
+pub fn words(run: &[(Input, Output)]) -> Vec<u8> {
+    let words = |input: &Input| {
+        let Input { angle, torque, setpoint, flags, vibration, asked } = *input;
+        [angle, torque, setpoint, flags, vibration[0], vibration[1], asked[0], asked[1]].map(u32::to_le_bytes)
+    };
+    run.iter().flat_map(|(input, _)| words(input)).flatten().collect()
+}
+
+/// Rows of eight words of a file.
+pub fn rows(bytes: &[u8]) -> Vec<[u32; 8]> {
+    let word = |bytes: &[u8]| u32::from_le_bytes(bytes.try_into().unwrap());
+    bytes.chunks_exact(32).map(|row| std::array::from_fn(|at| word(&row[4 * at..4 * at + 4]))).collect()
+}
+
 #[track_caller]
-fn ended_well(ended: &Ended) {
+pub fn ended_well(ended: &Ended) {
     let said = [&ended.stdout, &ended.stderr].map(|bytes| String::from_utf8_lossy(bytes).into_owned());
     assert!(ended.status.success(), "{}\n{}", ended.status, said.join("\n"));
 }
 
 /// The outputs in C, without their instructions, are those in Rust.
 #[track_caller]
-fn same_bits(rows: &[[u32; 8]], run: &[(Input, Output)]) {
+pub fn same_bits(rows: &[[u32; 8]], run: &[(Input, Output)]) {
     assert_eq!(rows.len(), run.len());
     for (tick, (row, (_, o))) in rows.iter().zip(run).enumerate() {
         let expected = [o.torque, o.motor_speed, o.shaft_torque, o.load_speed, o.load_torque, o.faults];

@@ -15,4 +15,5 @@ mod images {
     mod new_project;
     mod packages;
     mod panic;
+    mod python;
 }
