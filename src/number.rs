@@ -63,6 +63,8 @@ pub trait Number:
     fn fraction(part: u32) -> Self;
     /// Limited to twice the base in fixed point; floats are unchanged.
     fn saturated(self) -> Self;
+    /// Limited to four times the base in fixed point, to which as much can be added; floats are unchanged.
+    fn addable(self) -> Self;
     /// In fixed point 1 where any of these saturated states is beyond its base, 0 where not; always 0 for floats.
     fn beyond_base<const K: usize>(states: [Self; K]) -> u32;
     /// Limited to `limit`, which is not negative, in either direction; a NaN gives the limit.

@@ -138,11 +138,11 @@ where
         self.shape.lower(&config.shape, self.ramped, standing)
     }
 
-    /// The integral with the compensation.
+    /// The integral, two bases at most, with the compensation: no limit of fixed point while that is within two.
     #[inline(always)]
     fn standing(&self, config: &<Self as Governor<N>>::Config, estimate: &Estimate<N>) -> N {
         let steady = self.compensation.steady(&config.compensation, estimate, self.integral);
-        self.compensation.transient(&config.compensation, estimate, steady).saturated()
+        self.compensation.transient(&config.compensation, estimate, steady).addable()
     }
 
     /// Starts from the present speed with this permitted torque, steady (bumpless transfer).

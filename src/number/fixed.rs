@@ -161,6 +161,11 @@ impl Number for Fixed {
         Fixed(self.0.clamp(-(1 << 29), (1 << 29) - 1))
     }
 
+    #[inline(always)]
+    fn addable(self) -> Self {
+        Fixed(self.0.clamp(-(1 << 30), (1 << 30) - 1))
+    }
+
     // Bit 28 of a magnitude is set in the union where it is set in any; saturated states have none above it.
     #[inline(always)]
     fn beyond_base<const K: usize>(states: [Self; K]) -> u32 {

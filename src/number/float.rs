@@ -49,6 +49,11 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn addable(self) -> Self {
+                self
+            }
+
+            #[inline(always)]
             fn beyond_base<const K: usize>(_states: [Self; K]) -> u32 {
                 0
             }

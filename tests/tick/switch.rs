@@ -2,10 +2,11 @@
 
 use driveline::drive::{Config, Drive, Limits};
 use driveline::governor::{
-    CycleAverage, DampingLag, DampingLagConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Governor,
-    SetpointLag, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, SymmetricLimit, SymmetricLimitConfig,
+    ActiveDamping, ActiveDampingConfig, CycleAverage, DampingLag, DampingLagConfig, Droop, DroopConfig, FeedForward,
+    FeedForwardConfig, Gains, Governor, SetpointLag, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig,
+    SymmetricLimit, SymmetricLimitConfig,
 };
-use driveline::number::StateOf;
+use driveline::number::{Coefficient, Fixed, Number, StateOf};
 use driveline::observer::{GearFriction, GearedConfig, GearedObserver, Observer, TwoMassConfig, TwoMassObserver};
 use driveline::sample::{Estimate, Sample};
 
@@ -118,4 +119,56 @@ fn a_switch_of_gain_droop_and_feed_forward_is_bumpless() {
     // without the filter's speed the estimate's counts, and a start forgets it
     governor.start(&from, &at(50.0), 20.0);
     assert_eq!(governor.command(&from, &at(50.0)), 20.0);
+}
+
+/// Torques after a switch at a limit of one base, `scale` being the factors of a gain and of a widened number.
+fn switched<N: Number>(
+    number: impl Fn(f64) -> N,
+    factor: impl Fn(f64) -> N::Coefficient,
+    scale: [f64; 2],
+    [torque, load_torque, error, from, to]: [f64; 5],
+) -> [f64; 8] {
+    type Composed<N> = StateOf<SpeedGovernor<(), (FeedForward, ActiveDamping)>, N>;
+    let [from, to] = [from, to].map(|gain| SpeedGovernorConfig {
+        gains: Gains { proportional: factor(gain / scale[0]), reset: factor(0.25), ramp: number(1.0) },
+        shape: (),
+        compensation: (
+            FeedForwardConfig { share: factor(0.5 / scale[1]) },
+            ActiveDampingConfig { damping: factor(-0.5 / scale[0]) },
+        ),
+        limit: SymmetricLimitConfig { torque: number(1.0) },
+        sequence: (),
+        filter: (),
+    });
+    let at = |speed: f64| Estimate {
+        motor_speed: number(speed),
+        shaft_torque: number(0.0),
+        load_speed: number(2.0 * speed),
+        load_torque: number(load_torque),
+    };
+    let mut governor = Composed::<N>::default();
+    governor.start(&from, &at(0.0), number(torque));
+    governor.command(&from, &at(-error));
+    Governor::switch(&mut governor, &from, &to, &at(-error));
+    let speeds = [-error, -error, 0.5 * error, 0.5 * error, 0.0, 0.0, -0.25 * error, 0.125 * error];
+    speeds.map(|speed| governor.command(&to, &at(speed)).to_real())
+}
+
+/// While no estimate is beyond its base and the compensation is within one, fixed point commands what `f64` commands,
+/// however far integral and compensation go beyond the limit together.
+#[test]
+fn a_switch_in_saturation_is_the_same_in_every_number() {
+    let values = [-1.0, -0.5, 0.0, 0.5, 1.0];
+    let gains = [0.5, 2.0, 8.0];
+    for case in 0..125 * 9 {
+        let of = |by: usize, base: usize| values[case / by % base];
+        let (from, to) = (gains[case / 125 % 3], gains[case / 375]);
+        let inputs = [of(1, 5), of(5, 5), of(25, 5), from, to];
+        let float = switched::<f64>(|x| x, |x| x, [1.0; 2], inputs);
+        let fixed = switched::<Fixed>(Fixed::from_f64, |x| Coefficient::from_f64(x).unwrap(), [32.0, 4.0], inputs);
+        for (float, fixed) in float.into_iter().zip(fixed) {
+            // eight ticks of roundings to 2^-23
+            assert!((float - fixed).abs() < 1e-5, "{inputs:?}: {float} {fixed}");
+        }
+    }
 }

@@ -71,6 +71,7 @@ proptest! {
             let most = bases << (28 - GAIN_SHIFT);
             held((wide * i128::from(c)) >> 32, -most, most - 1) << GAIN_SHIFT
         };
+        prop_assert_eq!(i128::from(number.addable().to_bits()), held(wide, -(1 << 30), (1 << 30) - 1));
         prop_assert_eq!(i128::from(number.gained::<1>(coefficient(c)).to_bits()), gained(1));
         prop_assert_eq!(i128::from(number.gained::<4>(coefficient(c)).to_bits()), gained(4));
         let speed = held((wide * i128::from(c)) >> (32 - SPEED_SHIFT), -(1 << 30), 1 << 30);
