@@ -319,8 +319,11 @@ where
             self.observer.resync(sample.angle);
             self.coasted = ONE;
         } else {
-            let count =
-                <StateOf<O, N>>::speed_of_turn(&config.observer, N::ZERO.less_turn(limits.frozen_turn)).magnitude();
+            let count = <StateOf<O, N>>::speed_of_turn(
+                &config.observer,
+                N::ZERO.less_turn(limits.frozen_turn, N::Carry::default()),
+            )
+            .magnitude();
             let known = self.estimate(config).motor_speed;
             if (speed - known).exceeds(count) {
                 self.observer.restart(&config.observer, sample.angle, torque, speed);

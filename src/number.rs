@@ -34,7 +34,7 @@ pub trait Number:
     /// Type of a factor. In fixed point a fraction of 2^32.
     type Coefficient: Copy + Default + PartialEq + Debug;
     /// Remainder carried from one sum to the next.
-    type Carry: Copy;
+    type Carry: Copy + Default;
 
     /// Zero.
     const ZERO: Self;
@@ -77,8 +77,8 @@ pub trait Number:
     /// An angle difference, from 2^-32 turns.
     fn from_angle(turned: i32) -> Self;
     /// An angle difference less a turn, which is in 2^-32 turns for floats and 2^-26 turns in fixed point
-    /// ([`TURN_SHIFT`]).
-    fn less_turn(self, turn: Self) -> Self;
+    /// ([`TURN_SHIFT`]), and less the turn's remainder.
+    fn less_turn(self, turn: Self, rest: Self::Carry) -> Self;
     /// An angle difference as the operand of the correction gains.
     fn innovation_operand(self) -> Self;
     /// A difference of speeds times a governor's gain ([`GAIN_SHIFT`]), for what is not summed over the ticks. In fixed
@@ -99,7 +99,7 @@ pub trait Number:
 }
 
 /// Binary places by which a turn in fixed point is coarser than 2^-32 turns: it has a resolution of 2^6 of them (0.09
-/// urad). A turn of the base of the speed in a tick has a factor of 2^-32 in 16 to 20 places, which is its error: finer
+/// urad), and its remainder that of an angle. A turn of the base of the speed in a tick has a factor of 2^-32 in 16 to 20 places, which is its error: finer
 /// turns leave no room for a speed of two turns in a tick, or for a twist of 25 rad.
 pub const TURN_SHIFT: u32 = 6;
 

@@ -196,8 +196,8 @@ impl Number for Fixed {
     }
 
     #[inline(always)]
-    fn less_turn(self, turn: Self) -> Self {
-        Fixed(self.0.wrapping_sub(turn.0 << TURN_SHIFT))
+    fn less_turn(self, turn: Self, rest: u32) -> Self {
+        Fixed(self.0.wrapping_sub(turn.0 << TURN_SHIFT).wrapping_sub((rest >> (32 - TURN_SHIFT)) as i32))
     }
 
     #[inline(always)]

@@ -87,7 +87,7 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn less_turn(self, turn: Self) -> Self {
+            fn less_turn(self, turn: Self, _rest: ()) -> Self {
                 self - turn
             }
 

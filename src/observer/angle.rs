@@ -35,11 +35,21 @@ impl<N: Number> AngleTracker<N> {
         self.angle
     }
 
-    /// The prediction of `states`, from a predicted `turn` in the unit of [`Number::less_turn`] and a measured `angle`.
+    /// The prediction of `states` and of the turn, `c[0] y[0] + ...` in the unit of [`Number::less_turn`], at a measured
+    /// `angle`.
+    // The turn's remainder counts for the innovation: the fastest observers amplify a rounding of the turn.
     #[inline(always)]
-    pub fn predict<S>(&self, states: S, turn: N, angle: u32, carry: N::Carry) -> Prediction<N, S> {
+    pub fn predict<S, const K: usize>(
+        &self,
+        states: S,
+        (c, y): ([N::Coefficient; K], [N; K]),
+        angle: u32,
+        carry: N::Carry,
+    ) -> Prediction<N, S> {
+        let mut rest = N::Carry::default();
+        let turn = N::sum(&mut rest, c, y);
         let turned = N::from_angle(angle.wrapping_sub(self.angle) as i32) + self.residual;
-        Prediction { states, turn, innovation: turned.less_turn(turn), carry }
+        Prediction { states, turn, innovation: turned.less_turn(turn, rest), carry }
     }
 
     /// Corrects predicted states and residual, each by its gain times the innovation, and stores them in `states`.

@@ -279,8 +279,8 @@ impl<N: Gap> Observer<N> for BacklashObserver<N> {
         let accelerating = torque - self.load_torque;
         let speed = self.speed.accumulate(&mut carry, [config.acceleration], [accelerating]);
         let path = [self.speed + speed, (twist - self.twist).widened()];
-        let turn = N::sum(&mut carry, config.turn, path);
-        self.angle.predict([speed, twist_rate, twist, self.load_torque], turn, angle, carry).with((searching, lively))
+        let states = [speed, twist_rate, twist, self.load_torque];
+        self.angle.predict(states, (config.turn, path), angle, carry).with((searching, lively))
     }
 
     #[inline(always)]

@@ -69,7 +69,7 @@ impl<N: Number> Observer<N> for RigidObserver<N> {
         let mut carry = N::CARRY;
         let accelerating = torque - self.load_torque;
         let speed = self.speed.accumulate(&mut carry, [config.acceleration], [accelerating]);
-        let turn = N::sum(&mut carry, [config.turn], [self.speed + speed]);
+        let turn = ([config.turn], [self.speed + speed]);
         self.angle.predict([speed, self.load_torque], turn, angle, carry).with(accelerating)
     }
 

@@ -85,9 +85,8 @@ impl<N: Number> Observer<N> for SemiImplicitObserver<N> {
         let load_speed = self.load_speed.accumulate(&mut carry, [config.load], [accelerating]);
         let twist_rates = [motor_speed - load_speed, self.motor_speed - self.load_speed];
         let shaft_torque = self.shaft_torque.accumulate(&mut carry, config.shaft, twist_rates);
-        let turn = N::sum(&mut carry, [config.turn], [motor_speed]);
         let states = [motor_speed, load_speed, shaft_torque, self.load_torque];
-        self.angle.predict(states, turn, angle, carry)
+        self.angle.predict(states, ([config.turn], [motor_speed]), angle, carry)
     }
 
     #[inline(always)]

@@ -103,8 +103,7 @@ impl<N: Number> Observer<N> for TwoMassObserver<N> {
         let accelerating = torque - self.load_torque;
         let speed = self.speed.accumulate(&mut carry, [config.acceleration], [accelerating]);
         let path = [self.speed + speed, (twist - self.twist).widened()];
-        let turn = N::sum(&mut carry, config.turn, path);
-        self.angle.predict([speed, twist_rate, twist, self.load_torque], turn, angle, carry)
+        self.angle.predict([speed, twist_rate, twist, self.load_torque], (config.turn, path), angle, carry)
     }
 
     #[inline(always)]

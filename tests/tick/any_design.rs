@@ -290,6 +290,8 @@ struct Tally {
     flagged: u32,
     /// Largest difference of the numbers over the limit, without a flag.
     apart: f64,
+    /// Designs whose numbers differ by more than 1 % of the limit without a flag.
+    parted: Vec<u64>,
 }
 
 /// One design: driven to both limits, then told anything.
@@ -338,7 +340,10 @@ fn try_one(seed: u64, tally: &mut Tally) {
         }
         if flags == Faults::NONE {
             let apart = (one.0 - three.0).abs().max((two.0 - three.0).abs()).max((one.0 - two.0).abs()) / limit;
-            assert!(apart <= 0.01, "{seed} kind {kind} tick {tick}: {} {} {} of {limit}", one.0, two.0, three.0);
+            if apart > 0.01 && tally.parted.last() != Some(&seed) {
+                println!("{seed} kind {kind} tick {tick}: {} {} {} of {limit}", one.0, two.0, three.0);
+                tally.parted.push(seed);
+            }
             tally.apart = tally.apart.max(apart);
         }
         torque = two.0;
@@ -376,10 +381,15 @@ fn try_one(seed: u64, tally: &mut Tally) {
 fn any_accepted_design_keeps_its_limit_and_the_numbers_agree() {
     let told = |name, usual| std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(usual);
     let (from, mut tally) = (told("FROM", 0), Tally::default());
+    // a switch in saturation, and observers that amplify a rounding of the turn to 2^-26 turn
+    for seed in [652_227, 148_663, 245_946, 1_017_204, 1_177_310, 1_365_295] {
+        try_one(seed, &mut tally);
+    }
     for seed in from..from + told("DESIGNS", 2_000) {
         try_one(seed, &mut tally);
     }
     println!("{tally:?}");
+    assert!(tally.parted.is_empty(), "{tally:?}");
     // A fifth of the designs is sound, and most of those run without a flag.
     assert!(tally.accepted > tally.drawn / 5 && tally.flagged < tally.accepted / 2, "{tally:?}");
 }

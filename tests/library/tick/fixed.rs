@@ -2,7 +2,7 @@
 //! bias away.
 
 use driveline::number::{Coefficient, Fixed, GAIN_SHIFT, INNOVATION_SHIFT, Number, SPEED_SHIFT, TURN_SHIFT};
-use driveline::observer::Stiction;
+use driveline::observer::{AngleTracker, Stiction};
 use proptest::prelude::*;
 
 /// The coefficient with these bits: exact, since `f64` holds 32 bits.
@@ -61,17 +61,21 @@ proptest! {
         prop_assert_eq!((number + Fixed::from_bits(y)).to_bits(), wrapped(wide + i128::from(y)));
         prop_assert_eq!((number - Fixed::from_bits(y)).to_bits(), wrapped(wide - i128::from(y)));
         prop_assert_eq!(number.widened().to_bits(), wrapped(wide * 4));
-        let less = wide - (i128::from(y) << TURN_SHIFT);
-        prop_assert_eq!(number.less_turn(Fixed::from_bits(y)).to_bits(), wrapped(less));
+        let less = wide - (i128::from(y) << TURN_SHIFT) - i128::from(c as u32 >> (32 - TURN_SHIFT));
+        prop_assert_eq!(number.less_turn(Fixed::from_bits(y), c as u32).to_bits(), wrapped(less));
+        // an innovation to 2^-32 turn, whatever the carry of the states
+        let predicted = AngleTracker::<Fixed>::new(0).predict((), ([coefficient(c)], [Fixed::from_bits(y)]), x as u32, c as u32);
+        let turn = (i128::from(c) * i128::from(y)) >> (32 - TURN_SHIFT);
+        prop_assert_eq!(predicted.innovation().to_bits(), wrapped(wide - turn));
         prop_assert_eq!(i128::from(number.times(coefficient(c)).to_bits()), (wide * i128::from(c)) >> 32);
         prop_assert_eq!(i128::from(number.braked(()).to_bits()), held(wide, -(1 << 25), (1 << 25) - 1) << 4);
         prop_assert_eq!(number.innovation_operand().to_bits(), wrapped(wide << INNOVATION_SHIFT));
         prop_assert_eq!(i128::from(number.saturated().to_bits()), held(wide, -(1 << 29), (1 << 29) - 1));
+        prop_assert_eq!(i128::from(number.addable().to_bits()), held(wide, -(1 << 30), (1 << 30) - 1));
         let gained = |bases: i128| {
             let most = bases << (28 - GAIN_SHIFT);
             held((wide * i128::from(c)) >> 32, -most, most - 1) << GAIN_SHIFT
         };
-        prop_assert_eq!(i128::from(number.addable().to_bits()), held(wide, -(1 << 30), (1 << 30) - 1));
         prop_assert_eq!(i128::from(number.gained::<1>(coefficient(c)).to_bits()), gained(1));
         prop_assert_eq!(i128::from(number.gained::<4>(coefficient(c)).to_bits()), gained(4));
         let speed = held((wide * i128::from(c)) >> (32 - SPEED_SHIFT), -(1 << 30), 1 << 30);
