@@ -33,7 +33,7 @@ fn start(place: &Place, mark: &str, line: &str) -> Child {
     let page = place.at("page.html");
     let mut command = Command::new(env!("CARGO_BIN_EXE_lab"));
     command.args(line.split(' ').map(|word| word.replace("WORK", &place.at("").display().to_string())));
-    if line.contains("--quick") || line.starts_with("campaign") {
+    if line.starts_with("run") || line.starts_with("campaign") {
         command.arg("--html").arg(page);
     }
     command.current_dir(workspace().unwrap()).env("TMPDIR", place.outside("tmp")).env(MARK, mark);
@@ -105,7 +105,7 @@ fn signals_at_fifty_moments() {
     assert!(status.success());
     let cosim =
         format!("cosim WORK/hoist.toml {} --time 20 --csv WORK/run.csv --html WORK/page.html", machine.display());
-    let report = "report --quick --scene spindle";
+    let report = "report --quick --scene spindle --markdown WORK/page.html";
     let runs = [
         (qemu, 12, 8.0),
         (report, 12, 20.0),
