@@ -67,6 +67,7 @@ use crate::drive::{Composition, ConfigOf};
 use crate::fault::Faults;
 use crate::learning::Learnt;
 use crate::number::{Part, StateOf};
+use crate::sample::Command;
 
 /// What is known of load and rope at this time, beyond what the drive finds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -109,7 +110,7 @@ pub struct Adaptive<M, D: Composition, S: Part<D::Number> = (), L: Part<D::Numbe
     /// The working copy of its constants.
     config: ConfigOf<D>,
     learners: StateOf<L, D::Number>,
-    /// Ticks since the last call of `background` in the low half, [`INTERRUPTED`] above.
+    /// [`fresh`] and the ticks since the last call of `background` in the low half, [`INTERRUPTED`] above.
     passed: u32,
     /// Ticks since the last step, since the last transfer, and since the last block of the eccentricity.
     ticks: [u32; 3],
@@ -121,8 +122,16 @@ pub struct Adaptive<M, D: Composition, S: Part<D::Number> = (), L: Part<D::Numbe
 }
 
 /// In the upper half of the count of ticks: the brake held, or the axis was tripped. The faults of the ticks lie below
-/// it. A count that overflows looks like a fault.
+/// it.
 const INTERRUPTED: u32 = 1 << 31;
+
+/// The count of ticks, from which on `background` is overdue; it ends there.
+const OVERDUE: u32 = 1 << 15;
+
+/// The count after a call of `background`: a second before it is overdue, at rates above 32,768 Hz as many ticks.
+const fn fresh(rate_hz: u32) -> u32 {
+    OVERDUE.saturating_sub(rate_hz)
+}
 
 /// The bits of faults, 0 to 13 and 24 to 30, in the upper half of a word, below its top.
 const fn flagged(faults: Faults) -> u32 {
@@ -157,10 +166,19 @@ where
         <Self as Configure<M, D::Number>>::CONFIG
     }
 
-    /// Counts a tick with its faults.
+    /// Counts a tick with its faults, and adds that of a `background` that is overdue.
     #[inline(always)]
-    fn count(&mut self, faults: Faults) {
-        self.passed = self.passed.wrapping_add(1) | flagged(faults);
+    fn count(&mut self, mut command: Command<D::Number>) -> Command<D::Number> {
+        let overdue = self.passed >> 15 & 1;
+        self.passed = (self.passed + (1 - overdue)) | flagged(command.faults);
+        command.faults |= Faults::background_missing(overdue);
+        command
+    }
+
+    /// Counts ticks that did not run.
+    fn count_missed(&mut self, missed: u32) {
+        let ticks = (self.passed & 0xffff).saturating_add(missed).min(OVERDUE);
+        self.passed = self.passed & !0xffff | ticks;
     }
 
     /// Everything that is slower than a tick, between two ticks: counts the rope, weighs the load, learns, and takes
@@ -168,11 +186,12 @@ where
     ///
     /// It may be called at any rate, after each tick or now and then, and does nothing until a hundredth of a second
     /// has passed. Nothing is learnt where it is called less than twenty times a second. The rope is counted to the
-    /// turn of the motor where it is called twice a second.
+    /// turn of the motor where it is called twice a second. A second after the last call each tick raises
+    /// [`Faults::BACKGROUND_MISSING`].
     pub fn background(&mut self, config: &ConfigOf<Self>, known: &Known) {
-        let passed = core::mem::take(&mut self.passed);
-        self.interrupted |= passed > 0xffff;
-        let passed = passed & 0xffff;
+        let passed = core::mem::replace(&mut self.passed, const { fresh(M::RATE_HZ) });
+        self.interrupted |= passed >= OVERDUE;
+        let passed = (passed & 0xffff).saturating_sub(const { fresh(M::RATE_HZ) });
         for ticks in &mut self.ticks {
             *ticks = ticks.saturating_add(passed);
         }
@@ -272,7 +291,8 @@ mod tests {
     #[test]
     fn no_fault_is_counted_as_ticks() {
         let mut seen = Faults::NONE;
-        for (fault, name) in Faults::NAMES {
+        // its own fault comes after the count
+        for (fault, name) in Faults::NAMES.into_iter().filter(|(fault, _)| *fault != Faults::BACKGROUND_MISSING) {
             let bits = flagged(fault);
             assert!(bits > 0xffff && bits & (0xffff | INTERRUPTED) == 0, "{name}: {bits:x}");
             seen |= fault;

@@ -50,6 +50,7 @@
 //! | `FeedForward`, `AccelerationFeedback` | [`Machine::GAINS`] | [`GainSource::Governor`] |
 //! | `ActiveDamping` | [`Machine::SPEED_LOOP`] | |
 //! | `Sequencer` | [`HasSequencer::SEQUENCER`] | [`HasSequencer`] |
+//! | `Actuated` | [`HasActuator::LAGS`], [`HasActuator::MONITOR`], [`HasActuator::TORQUE_DELAY`] | [`HasActuator`] |
 //! | `LoadSharing` | [`HasLoadSharing::SHARING`] | [`HasLoadSharing`] |
 //! | `MovingAverage`, `CycleAverage` | none | |
 //! | `Extremes`, `Waveform`, `Interleaved`, `CycleMean` | [`Machine::CYCLE`], [`Machine::CYCLES`] | |
@@ -136,7 +137,8 @@ mod vibration;
 pub use family::{Family, HasLoadAndRope, ScheduleOf, Scheduled};
 pub use gain_source::GainSource;
 pub use governor::{
-    HasBacklash, HasBarredSpeeds, HasDroop, HasInputShaper, HasLoadSharing, HasSequencer, HasSlew, HasTorqueCurve,
+    HasActuator, HasBacklash, HasBarredSpeeds, HasDroop, HasInputShaper, HasLoadSharing, HasSequencer, HasSlew,
+    HasTorqueCurve,
 };
 pub use life::HasLife;
 pub use loop_part::LoopPart;

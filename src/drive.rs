@@ -37,12 +37,14 @@
 //! Below the speed of the frozen-turn limit, a frozen encoder and a locked machine cannot be distinguished from the
 //! motor's side. The estimated load torque is then the torque that would lock it.
 
+mod actuated;
 mod axis;
 mod composition;
 mod recorder;
 mod switch;
 mod tick_count;
 
+pub use actuated::{Actuated, ActuatedConfig};
 pub use axis::MADE_UP;
 pub use composition::{Composition, ConfigOf, GovernorConfigOf, ObserverConfigOf, VibrationOf};
 pub use recorder::Recorded;

@@ -63,11 +63,15 @@ impl Faults {
     /// A stop of the supervision has ended: no torque is commanded, and the brake is to be closed.
     pub const STOPPED: Faults = Faults(1 << 13);
 
+    /// [`Adaptive::background`](crate::adaptive::Adaptive::background) has not run for a second: the gains do not follow
+    /// load and rope, and nothing is learnt.
+    pub const BACKGROUND_MISSING: Faults = Faults(1 << 15);
+
     /// The causes of a [`Supervised`](crate::governor::Supervised) governor's stops.
     pub const SUPERVISION: Faults = Faults(0x1fc0);
 
     /// Every flag with its name.
-    pub const NAMES: [(Faults, &'static str); 21] = [
+    pub const NAMES: [(Faults, &'static str); 22] = [
         (Faults::TORQUE, "torque"),
         (Faults::SETPOINT, "setpoint"),
         (Faults::ANGLE_JUMP, "angle jump"),
@@ -89,6 +93,7 @@ impl Faults {
         (Faults::TORQUE_REPORT, "torque report"),
         (Faults::BRAKE_SLIP, "brake slip"),
         (Faults::STOPPED, "stopped"),
+        (Faults::BACKGROUND_MISSING, "background missing"),
     ];
 
     /// Whether there is none.
@@ -125,6 +130,12 @@ impl Faults {
     #[inline(always)]
     pub(crate) const fn range(beyond: u32) -> Faults {
         Faults(beyond)
+    }
+
+    /// [`Faults::BACKGROUND_MISSING`] where `overdue` is 1, none where it is 0.
+    #[inline(always)]
+    pub(crate) const fn background_missing(overdue: u32) -> Faults {
+        Faults(overdue << 15)
     }
 
     /// The faults with these bits; bits that mean nothing are dropped.

@@ -48,7 +48,7 @@ pub use limit::{
 pub use load_sharing::{LoadSharing, LoadSharingConfig};
 pub use loop_filter::{DampingLag, DampingLagConfig, LoopFilter, SetpointLag};
 pub use resistor_starter::{ResistorStarter, ResistorStarterConfig};
-pub use sequencer::{RunAction, RunRequest, RunState, Sequence, Sequencer, SequencerConfig, Trip};
+pub use sequencer::{HasRunSequence, RunAction, RunRequest, RunState, Sequence, Sequencer, SequencerConfig, Trip};
 pub use setpoint::{Barred, BarredConfig, Droop, DroopConfig, SetpointShape, SpeedRange};
 pub use soft_starter::{SoftStarter, SoftStarterConfig};
 pub use speed_filter::{CycleAverage, MovingAverage, MovingAverageConfig, SpeedFilter};

@@ -38,7 +38,7 @@ where
             drive: D::new(&config.drive, angle),
             config: config.drive,
             learners: L::State::start(),
-            passed: 0,
+            passed: super::fresh(M::RATE_HZ),
             ticks: [0; 3],
             interrupted: true,
             load: None,
@@ -52,16 +52,14 @@ where
     pub fn tick(&mut self, _config: &ConfigOf<Self>, sample: &Sample<D::Number>) -> Command<D::Number> {
         let torque = self.learners.calibrated(sample.torque);
         let command = self.drive.tick(&self.config, &Sample { torque, ..*sample });
-        self.count(command.faults);
-        command
+        self.count(command)
     }
 
     /// One tick against a closed brake, as [`Drive::hold`](crate::drive::Drive::hold).
     pub fn hold(&mut self, _config: &ConfigOf<Self>, angle: u32, torque: D::Number) -> Command<D::Number> {
         let command = self.drive.hold(&self.config, angle, torque);
-        self.count(command.faults);
         self.passed |= INTERRUPTED;
-        command
+        self.count(command)
     }
 
     /// The present estimate.
@@ -99,16 +97,18 @@ where
     fn tick_after(&mut self, _: &Self::Config, sample: &Sample<D::Number>, missed: u32) -> Command<D::Number> {
         let torque = self.learners.calibrated(sample.torque);
         let command = self.drive.tick_after(&self.config, &Sample { torque, ..*sample }, missed);
-        self.passed = self.passed.wrapping_add(missed);
+        self.count_missed(missed);
         // Ticks that are made up hang together; more of them lack the angle, which is a fault of its own.
-        self.count(Faults::from_bits(command.faults.bits() & !Faults::TICK_MISSED.bits()));
-        command
+        let missed = command.faults.bits() & Faults::TICK_MISSED.bits();
+        let faults = Faults::from_bits(command.faults.bits() ^ missed);
+        let command = self.count(Command { faults, ..command });
+        Command { faults: command.faults | Faults::from_bits(missed), ..command }
     }
 
     fn make_up(&mut self, _: &Self::Config, torque: D::Number, missed: u32) -> Faults {
         let torque = self.learners.calibrated(torque);
         let faults = self.drive.make_up(&self.config, torque, missed);
-        self.passed = self.passed.wrapping_add(missed);
+        self.count_missed(missed);
         if missed > MADE_UP {
             self.passed |= INTERRUPTED;
         }
@@ -118,8 +118,7 @@ where
     fn coast(&mut self, _: &Self::Config, torque: D::Number, setpoint: D::Number) -> Command<D::Number> {
         let torque = self.learners.calibrated(torque);
         let command = self.drive.coast(&self.config, torque, setpoint);
-        self.count(command.faults);
-        command
+        self.count(command)
     }
 
     fn hold(&mut self, config: &Self::Config, angle: u32, torque: D::Number) -> Command<D::Number> {
@@ -146,6 +145,18 @@ where
 
     fn observer_mut(&mut self) -> &mut Self::Observer {
         self.drive.observer_mut()
+    }
+
+    fn governor(&self) -> &Self::Governor {
+        self.drive.governor()
+    }
+
+    fn governor_mut(&mut self) -> &mut Self::Governor {
+        self.drive.governor_mut()
+    }
+
+    fn commanded(&self) -> D::Number {
+        self.drive.commanded()
     }
 
     fn vibration(&mut self, _: &Self::Config, vibration: &VibrationOf<Self>) {

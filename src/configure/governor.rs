@@ -6,15 +6,16 @@ use crate::design::{
     TorqueCurve,
 };
 use crate::governor::{
-    AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, BacklashTakeUp,
-    BacklashTakeUpConfig, Barred, BarredConfig, Curve, CurveConfig, CycleAverage, DampingLag, DampingLagConfig, Droop,
-    DroopConfig, FeedForward, FeedForwardConfig, Gains, InputShaper, InputShaperConfig, LoadSharing, LoadSharingConfig,
-    LoopFilter, MovingAverage, MovingAverageConfig, Sequencer, SequencerConfig, SetpointLag, Slew, SlewConfig,
-    SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, Supervised, SupervisedConfig, SupervisionConfig,
-    SymmetricLimit, SymmetricLimitConfig, TorqueRange, TorqueRangeConfig,
+    AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, ActuatorMonitor,
+    ActuatorMonitorConfig, BacklashTakeUp, BacklashTakeUpConfig, Barred, BarredConfig, Curve, CurveConfig,
+    CycleAverage, DampingLag, DampingLagConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, InputShaper,
+    InputShaperConfig, LoadSharing, LoadSharingConfig, LoopFilter, MovingAverage, MovingAverageConfig, Sequencer,
+    SequencerConfig, SetpointLag, Slew, SlewConfig, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig,
+    Supervised, SupervisedConfig, SupervisionConfig, SymmetricLimit, SymmetricLimitConfig, TorqueRange,
+    TorqueRangeConfig,
 };
 use crate::number::{Fixed, Number, Part};
-use crate::settings::{Bases, LoadSharingSettings, SequencerSettings, SpeedLoopSettings};
+use crate::settings::{ActuatorMonitorSettings, Bases, LoadSharingSettings, SequencerSettings, SpeedLoopSettings};
 
 /// A machine with backlash take-up, or with a slack rope.
 pub trait HasBacklash: Machine {
@@ -66,15 +67,29 @@ pub trait HasInputShaper: Machine {
 
 /// A machine that starts, runs, stops and trips.
 pub trait HasSequencer: Machine {
-    /// Limits of the sequencer.
-    const SEQUENCER: SequencerSettings;
+    /// Limits of the sequencer: [`SequencerSettings::of`] the rating.
+    const SEQUENCER: SequencerSettings = SequencerSettings::of(&Self::RATING);
 }
+
+/// A machine whose torque comes from an actuator of `K` lags in a row, which reports its position: a fuel rack, a steam
+/// valve. [`Machine::ACTUATOR`] has to allow for their sum.
+pub trait HasActuator<const K: usize>: Machine {
+    /// Lags from the command to the torque of the reported position (s).
+    const LAGS: [f64; K];
+    /// Delay from the position to the torque that acts on the machine (s); zero where it acts at once.
+    const TORQUE_DELAY: f64;
+    /// Limits of the actuator's monitor: [`ActuatorMonitorSettings::of`] the rating.
+    const MONITOR: ActuatorMonitorSettings = ActuatorMonitorSettings::of(&Self::RATING);
+}
+
+/// The gains behind the filter `V`.
+pub struct GainsBehind<V>(core::marker::PhantomData<V>);
 
 impl<M, N, S, F, L, U, V> Configure<M, N> for SpeedGovernor<S, F, L, U, V>
 where
     M: Machine,
     N: Number,
-    Gains<N>: Configure<M, N, Config = Gains<N>>,
+    GainsBehind<V>: Configure<M, N, Config = Gains<N>>,
     S: Configure<M, N>,
     F: Configure<M, N>,
     L: Configure<M, N>,
@@ -83,7 +98,7 @@ where
 {
     type Config = SpeedGovernorConfig<N, S::Config, F::Config, L::Config, U::Config, V::Config>;
     const CONFIG: Self::Config = SpeedGovernorConfig {
-        gains: <Gains<N> as Configure<M, N>>::CONFIG,
+        gains: <GainsBehind<V> as Configure<M, N>>::CONFIG,
         shape: S::CONFIG,
         compensation: F::CONFIG,
         limit: L::CONFIG,
@@ -96,7 +111,7 @@ where
             GainSource::SpeedLoop(design) => {
                 GainSource::SpeedLoop(SpeedLoopDesign { damping: 0.0, damping_lag: 0.0, ..design })
             }
-            gains => gains,
+            GainSource::Governor(design) => GainSource::Governor(design.behind(V::LOOP.averaging)),
         };
         LoopPart { gains: Some(gains), ..LoopPart::NONE }.and(&F::LOOP).and(&L::LOOP).and(&V::LOOP)
     };
@@ -140,10 +155,6 @@ macro_rules! governors {
         parts! { $number, $bases;
             [] Machine, DampingLag => DampingLagConfig<$number>,
                 DampingLagConfig::<$number>::new(M::SPEED_LOOP.damping_lag, M::PERIOD, $bases);
-            [] Machine, Gains<$number> => Gains<$number>, match &M::GAINS {
-                GainSource::SpeedLoop(design) => Gains::<$number>::of_speed_loop(design, speed_loop_settings::<M>(), $bases),
-                GainSource::Governor(design) => Gains::<$number>::new(design, speed_loop_settings::<M>(), $bases),
-            };
             [] HasDroop, Droop => DroopConfig<$number>,
                 DroopConfig::<$number>::new(M::DROOP, M::RATING.speed.0, M::RATING.torque.0, $bases);
             [K] HasBarredSpeeds<K>, Barred<K> => BarredConfig<$number, K>,
@@ -165,6 +176,8 @@ macro_rules! governors {
                 CurveConfig::<$number, K>::new(&M::CURVE, M::LEAST_TORQUE, $bases);
             [] HasSequencer, Sequencer => SequencerConfig<$number>,
                 SequencerConfig::<$number>::new(&M::SEQUENCER, M::PERIOD, $bases);
+            [K] HasActuator<K>, ActuatorMonitor<$number, K> => ActuatorMonitorConfig<$number, K>,
+                ActuatorMonitorConfig::<$number, K>::new(&M::LAGS, &M::MONITOR, M::PERIOD, $bases);
             [MOTORS] HasLoadSharing, LoadSharing<$number, MOTORS> => LoadSharingConfig<$number>, {
                 assert!(MOTORS as u32 == M::SHARING.motors, "the load sharing and its settings differ in their motors");
                 LoadSharingConfig::<$number>::new(&M::SHARING, M::PERIOD, $bases)
@@ -172,6 +185,18 @@ macro_rules! governors {
             [K] Machine, MovingAverage<K> => MovingAverageConfig<$number, K>,
                 MovingAverageConfig::<$number, K>::of_ticks(),
                 LoopPart { averaging: Averaging::Ticks(K as u32), ..LoopPart::NONE };
+        }
+
+        impl<M: Machine, V: Configure<M, $number>> Configure<M, $number> for GainsBehind<V> {
+            type Config = Gains<$number>;
+            const CONFIG: Self::Config = match &M::GAINS {
+                GainSource::SpeedLoop(design) => {
+                    Gains::<$number>::of_speed_loop(design, speed_loop_settings::<M>(), $bases)
+                }
+                GainSource::Governor(design) => {
+                    Gains::<$number>::new(&design.behind(V::LOOP.averaging), speed_loop_settings::<M>(), $bases)
+                }
+            };
         }
 
         impl<M: Machine, F> Configure<M, $number> for SpeedLoop<F>

@@ -276,6 +276,21 @@ impl GovernorDesign {
         }
     }
 
+    /// The gains behind an average of the speed, whose [delay](Averaging::delay) joins the equivalent delay. A
+    /// [`SpeedGovernor`](crate::governor::SpeedGovernor) takes them for its own filter.
+    #[must_use]
+    pub const fn behind(self, averaging: Averaging) -> Self {
+        let Actuator { delay, lag } = self.actuator;
+        let sum = delay + lag + 1.5 * self.period;
+        let ratio = sum / (sum + averaging.delay(self.period));
+        Self {
+            proportional: self.proportional * ratio,
+            integral: self.integral * ratio * ratio,
+            equivalent_delay: self.equivalent_delay / ratio,
+            ..self
+        }
+    }
+
     /// Fall of the steady speed per load torque (rad/(s N m)) under a [`Droop`](crate::governor::Droop) R, with the
     /// natural damping D: `R/(1 + R D)`, since the machine itself carries the share `D R/(1 + R D)` of the load. Where
     /// `R D` is -1 or below there is no steady state: the result is infinite or negative.

@@ -20,6 +20,16 @@ pub enum Averaging {
 }
 
 impl Averaging {
+    /// Delay that the gains have to allow for (s): half of the interval of a mean over ticks. The average over a cycle
+    /// follows an acceleration without one.
+    #[must_use]
+    pub const fn delay(self, period: f64) -> f64 {
+        match self {
+            Self::Ticks(ticks) if ticks > 1 => 0.5 * ticks as f64 * period,
+            _ => 0.0,
+        }
+    }
+
     const fn response(self, frequency: f64, period: f64) -> Complex {
         match self {
             Self::None => (1.0, 0.0),

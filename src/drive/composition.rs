@@ -52,6 +52,12 @@ pub trait Composition: Sized {
     fn observer(&self) -> &Self::Observer;
     /// As [`Drive::observer_mut`].
     fn observer_mut(&mut self) -> &mut Self::Observer;
+    /// As [`Drive::governor`].
+    fn governor(&self) -> &Self::Governor;
+    /// As [`Drive::governor_mut`].
+    fn governor_mut(&mut self) -> &mut Self::Governor;
+    /// The torque that was commanded for the tick that has begun.
+    fn commanded(&self) -> Self::Number;
     /// As [`Drive::vibration`].
     fn vibration(&mut self, config: &Self::Config, vibration: &VibrationOf<Self>);
     /// As [`Drive::vibration_missing`].
@@ -147,6 +153,19 @@ where
 
     fn observer_mut(&mut self) -> &mut Self::Observer {
         Drive::observer_mut(self)
+    }
+
+    fn governor(&self) -> &Self::Governor {
+        Drive::governor(self)
+    }
+
+    #[inline(always)]
+    fn governor_mut(&mut self) -> &mut Self::Governor {
+        Drive::governor_mut(self)
+    }
+
+    fn commanded(&self) -> N {
+        self.commanded
     }
 
     #[inline(always)]

@@ -218,6 +218,18 @@ impl<D: Composition + Clone, const K: usize> Composition for Recorded<D, K> {
         self.drive_mut().observer_mut()
     }
 
+    fn governor(&self) -> &Self::Governor {
+        self.drive.governor()
+    }
+
+    fn governor_mut(&mut self) -> &mut Self::Governor {
+        self.drive_mut().governor_mut()
+    }
+
+    fn commanded(&self) -> D::Number {
+        self.drive.commanded()
+    }
+
     #[inline(always)]
     fn vibration(&mut self, config: &Self::Config, vibration: &VibrationOf<Self>) {
         self.drive.vibration(config, vibration);

@@ -52,6 +52,18 @@ pub trait Sequence<N: Number>: Default {
     }
 }
 
+/// A governor with a run sequence: it starts, stops and trips.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no run sequence",
+    note = "a trip needs one: `SpeedGovernor<(), (), SymmetricLimit, Sequencer>`, and `HasSequencer` for the machine"
+)]
+pub trait HasRunSequence {
+    /// The run sequence.
+    fn sequencer(&self) -> &Sequencer;
+    /// The run sequence, to request another state.
+    fn sequencer_mut(&mut self) -> &mut Sequencer;
+}
+
 /// Always governing.
 impl<N: Number> Sequence<N> for () {
     type Config = ();

@@ -20,7 +20,10 @@
 //!
 //! Two parts of one kind are a tuple: `(Droop, Barred<2>)`. A part left out costs nothing.
 
-use super::{Compensation, Governor, Limit, RunAction, Sequence, SetpointShape, SpeedFilter, SymmetricLimit};
+use super::{
+    Compensation, Governor, HasRunSequence, Limit, RunAction, Sequence, Sequencer, SetpointShape, SpeedFilter,
+    SymmetricLimit,
+};
 use crate::number::{Number, Part};
 use crate::sample::Estimate;
 
@@ -78,6 +81,17 @@ where
     V: Part<N>,
 {
     type State = SpeedGovernor<S::State, F::State, L::State, M::State, V::State, N>;
+}
+
+impl<N, S, F, L, V> HasRunSequence for SpeedGovernor<S, F, L, Sequencer, V, N> {
+    fn sequencer(&self) -> &Sequencer {
+        &self.sequence
+    }
+
+    #[inline(always)]
+    fn sequencer_mut(&mut self) -> &mut Sequencer {
+        &mut self.sequence
+    }
 }
 
 impl<N, S, F, L, M, V> SpeedGovernor<S, F, L, M, V, N>

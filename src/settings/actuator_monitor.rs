@@ -5,6 +5,7 @@ use super::convert::get;
 use super::governor_parts::{all_finite, ticks};
 use super::to::Values;
 use super::{Error, Format};
+use crate::configure::Rating;
 use crate::governor::ActuatorMonitorConfig;
 use crate::math::exp_m1;
 
@@ -23,6 +24,14 @@ pub struct ActuatorMonitorSettings {
     pub max_torque: f64,
     /// Duration of a larger difference before a trip (s).
     pub timeout: f64,
+}
+
+impl ActuatorMonitorSettings {
+    /// Usual limits: a difference of a fifth of the rated torque for 0.1 s, and 1.3 times the torque limit.
+    #[must_use]
+    pub const fn of(rating: &Rating) -> Self {
+        Self { tolerance: 0.2 * rating.torque.0, max_torque: 1.3 * rating.torque_limit.0, timeout: 0.1 }
+    }
 }
 
 const fn torques(settings: &ActuatorMonitorSettings, format: &Format) -> Values<2, 1> {

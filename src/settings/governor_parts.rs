@@ -5,6 +5,7 @@ use super::convert::{fixed, get, or_stop};
 use super::format::ANGLE_PER_RADIAN;
 use super::to::Values;
 use super::{Bases, Error, Format, SpeedLoopSettings};
+use crate::configure::Rating;
 use crate::design::{GovernorDesign, SpeedLoopDesign};
 use crate::governor::{
     AccelerationFeedbackConfig, ActiveDampingConfig, DroopConfig, FeedForwardConfig, Gains, MovingAverageConfig,
@@ -54,6 +55,25 @@ pub struct SequencerSettings {
     pub underspeed_delay: f64,
     /// Time that a start may take (s).
     pub start: f64,
+}
+
+impl SequencerSettings {
+    /// Usual limits of a machine that turns one way: overspeed at 110 %, underspeed at 80 % for 3 s, 2 % backwards and
+    /// three times the rated torque in the shaft for 10 ms, standstill below 1 %, and 30 s for a start.
+    #[must_use]
+    pub const fn of(rating: &Rating) -> Self {
+        let (speed, torque) = (rating.speed.0, rating.torque.0);
+        Self {
+            overspeed: 1.1 * speed,
+            underspeed: 0.8 * speed,
+            reverse: 0.02 * speed,
+            shaft_torque: 3.0 * torque,
+            standstill: 0.01 * speed,
+            trip_delay: 0.01,
+            underspeed_delay: 3.0,
+            start: 30.0,
+        }
+    }
 }
 
 pub(super) const fn all_finite(values: &[f64]) -> bool {

@@ -5,7 +5,7 @@
 use driveline::adaptive::Adaptive;
 use driveline::configure::Machine;
 use driveline::design::TwoMassDesign;
-use driveline::drive::{Composition, Drive};
+use driveline::drive::{Actuated, Composition, Drive};
 use driveline::learning::EccentricityObserver;
 use driveline::machine;
 use driveline::number::Part;
@@ -61,6 +61,13 @@ where
     S: Part<D::Number>,
     L: Part<D::Number>,
 {
+    fn expected() -> Option<Expected> {
+        D::expected()
+    }
+}
+
+/// As the drive inside.
+impl<M, D: Composition + Expects<M>, const LAGS: usize, const RING: usize> Expects<M> for Actuated<D, LAGS, RING> {
     fn expected() -> Option<Expected> {
         D::expected()
     }

@@ -19,7 +19,7 @@
 //! estimated acceleration, as half the set's inertia more would ([`VirtualInertia`]), which raises the margins as well.
 //!
 //! # Inputs that fail
-//! An [`ActuatorMonitor`] compares rack or chest with the command. Reaction to a fault on each input:
+//! The monitor of an [`Actuated`] drive compares rack or chest with the command. Reaction to a fault on each input:
 //!
 //! | input | for 5 ms | for good |
 //! |---|---|---|
@@ -34,25 +34,26 @@ pub mod parts;
 
 use core::marker::PhantomData;
 
-use driveline::configure::{GainSource, HasBarredSpeeds, HasDroop, HasSequencer, HasTorqueCurve, Machine, Rating};
+use driveline::configure::{
+    GainSource, HasActuator, HasBarredSpeeds, HasDroop, HasSequencer, HasTorqueCurve, Machine, Rating,
+};
 use driveline::design::{
     Actuator, BarredSpeeds, Disturbance, Encoder, GovernorDesign, LoadFeedForward, NaturalDamping, Rate, Robustness,
-    TorqueCurve, TwoMassDesign, USUAL_MARGIN, VirtualInertia,
+    TorqueCurve, USUAL_MARGIN, VirtualInertia,
 };
-use driveline::drive::{ConfigOf, Drive};
+use driveline::drive::{Actuated, Composition, ConfigOf, Drive};
 use driveline::governor::{
-    AccelerationFeedback, ActuatorMonitor, ActuatorMonitorConfig, Barred, Compensation, Curve, Droop, FeedForward,
-    MovingAverage, RunRequest, RunState, Sequencer, SpeedGovernor, TransportDelay, TransportDelayConfig, Trip,
+    AccelerationFeedback, Barred, Curve, Droop, FeedForward, HasRunSequence, MovingAverage, RunRequest, RunState,
+    Sequencer, SpeedGovernor, Trip,
 };
 use driveline::machine::{
     Chain, Characteristic, Damping, Inertia, Line, Match, Parabola, Speed, Stiffness, Torque, TwoMass as TwoMassMachine,
 };
-use driveline::number::{Fixed, Number, Part};
+use driveline::number::Fixed;
 use driveline::observer::TwoMassObserver;
-use driveline::sample::Sample;
-use driveline::settings::{ActuatorMonitorSettings, Bases, Screening, SequencerSettings, SpeedLoopSettings};
+use driveline::settings::{ActuatorMonitorSettings, Bases, Screening};
 
-use crate::scene::composed::{Beside, Composed, output};
+use crate::scene::composed::{Beside, Composed, output, sample};
 use crate::scene::table::variants;
 use crate::scene::{Input, Output};
 
@@ -144,15 +145,12 @@ const fn natural(mover: &Characteristic, rated_torque: f64) -> NaturalDamping {
     NaturalDamping::of(mover, &power, Speed(RATED_SPEED))
 }
 
-/// Delay of the speed filter (s): half of its interval.
-const VIEW_DELAY: f64 = 0.5 * FIRING as f64 * PERIOD;
-
 /// The diesel set. Its critical speed is that of the engine's order 1.5 on the coupling, 844 r/min; order 3, the
 /// firing's, is passed under the starter.
 pub const DIESEL: Set = Set {
     rated_torque: DIESEL_TORQUE,
     machine: DIESEL_MACHINE,
-    actuator: Actuator { delay: FIRING_DELAY + VIEW_DELAY, lag: RACK_LAG },
+    actuator: Actuator { delay: FIRING_DELAY, lag: RACK_LAG },
     delay: TORQUE_DELAY,
     disturbance: Disturbance { torque_accuracy: 0.25 * DIESEL_TORQUE, load_torque_step: DIESEL_TORQUE, within: 1.0 },
     estimate_lag: 0.018,
@@ -200,7 +198,7 @@ const TURBINE_MACHINE: TwoMassMachine = TURBINE_CHAIN.reduce(Match::ResonanceAnt
 pub const TURBINE: Set = Set {
     rated_torque: TURBINE_TORQUE,
     machine: TURBINE_MACHINE,
-    actuator: Actuator { delay: VALVE_LAG + VIEW_DELAY, lag: CHEST_LAG },
+    actuator: Actuator { delay: VALVE_LAG, lag: CHEST_LAG },
     delay: 0.0,
     disturbance: Disturbance { torque_accuracy: 0.01 * TURBINE_TORQUE, load_torque_step: TURBINE_TORQUE, within: 2.0 },
     estimate_lag: 0.05,
@@ -224,16 +222,17 @@ pub const TURBINE: Set = Set {
 /// Slope of the droop that may be switched to: 4 % at rated torque.
 pub const DROOP: f64 = 0.04;
 
-/// The designs of a set: governor with feed-forward, governor without, observer.
-pub struct Designs {
-    /// With feed-forward, and without.
-    pub governors: [GovernorDesign; 2],
-    /// The observer.
-    pub observer: TwoMassDesign,
-}
-
 impl Set {
-    /// The governor, with feed-forward or without.
+    /// Rated torque and speed, and a fifth over the torque.
+    pub const fn rating(&self) -> Rating {
+        Rating {
+            torque: Torque(self.rated_torque),
+            speed: Speed(RATED_SPEED),
+            torque_limit: Torque(1.2 * self.rated_torque),
+        }
+    }
+
+    /// The governor before its average of the speed, with feed-forward or without.
     pub const fn governor(&self, forward: bool) -> GovernorDesign {
         if forward {
             let forward = LoadFeedForward { share: self.share, lag: self.estimate_lag };
@@ -246,11 +245,6 @@ impl Set {
         self.machine
             .governor_with_inertia(RATE, self.actuator, self.optimum_factor[1], inertia)
             .with_natural_damping(&self.machine, self.natural)
-    }
-
-    /// The observer.
-    pub const fn observer(&self) -> TwoMassDesign {
-        self.machine.observer(RATE, ENCODER, self.disturbance)
     }
 
     /// Bases of fixed point: two and a half times the rated torque, so that the estimates' swing and the gains fit, and
@@ -270,47 +264,20 @@ impl Set {
             max_coast: RATE_HZ * 3 / 200,
         }
     }
-
-    /// The actuator monitor: tolerance of a fifth of the rated torque; nine sixteenths over rated is no torque.
-    pub const fn watch(&self) -> ActuatorMonitorSettings {
-        ActuatorMonitorSettings {
-            tolerance: 0.2 * self.rated_torque,
-            max_torque: 1.5625 * self.rated_torque,
-            timeout: self.timeout,
-        }
-    }
-
-    /// Limits of the modes: overspeed 110 %; underspeed 80 % for 3 s; no turning backwards; three times the rated
-    /// torque in the coupling, for 10 ms; 30 s for a start.
-    pub const fn modes(&self) -> SequencerSettings {
-        SequencerSettings {
-            overspeed: 1.1 * RATED_SPEED,
-            underspeed: 0.8 * RATED_SPEED,
-            reverse: 0.02 * RATED_SPEED,
-            shaft_torque: 3.0 * self.rated_torque,
-            standstill: 0.01 * RATED_SPEED,
-            trip_delay: 0.01,
-            underspeed_delay: 3.0,
-            start: 30.0,
-        }
-    }
 }
-
-/// The ring of the rack (ticks).
-pub const RING: usize = 32;
 
 /// Ticks of the firing interval, the length of the moving average.
 pub const FIRING: usize = 32;
 
 /// The governor of a genset, with feed-forward or another compensation.
 pub type Governor<F = FeedForward> = SpeedGovernor<(Droop, Barred<1>), F, Curve<4>, Sequencer, MovingAverage<FIRING>>;
-/// The drive of a set.
-pub type DriveOf<N, F = FeedForward> = Drive<N, TwoMassObserver, Governor<F>>;
+/// The drive of a set behind its actuator, with the ticks of the actuator's delay.
+type DriveOf<N, F, const RING: usize> = Actuated<Drive<N, TwoMassObserver, Governor<F>>, 2, RING>;
 
 /// The diesel set's drive.
-pub type Diesel<N> = Composed<DriveOf<N>, Actuated<N, DieselSet>>;
+pub type Diesel<N> = Composed<DriveOf<N, FeedForward, 32>, Switches>;
 /// The turbine set's drive.
-pub type Turbine<N> = Composed<DriveOf<N, (FeedForward, AccelerationFeedback)>, Actuated<N, TurbineSet>>;
+pub type Turbine<N> = Composed<DriveOf<N, (FeedForward, AccelerationFeedback), 1>, Switches>;
 
 variants! {
     "diesel": Diesel for With<DieselSet, FED>;
@@ -323,15 +290,12 @@ pub struct DieselSet;
 /// The turbine set.
 pub struct TurbineSet;
 
-/// A set and its designs.
+/// A set.
 pub trait HasSet: 'static {
     /// The chain that the set's two masses come from.
     const CHAIN: Chain;
     /// The set.
     const SET: Set;
-    /// Its designs.
-    const DESIGNS: Designs =
-        Designs { governors: [Self::SET.governor(true), Self::SET.governor(false)], observer: Self::SET.observer() };
 }
 
 impl HasSet for DieselSet {
@@ -356,21 +320,13 @@ pub struct With<S, const CONSTANTS: usize>(PhantomData<S>);
 
 impl<S: HasSet, const CONSTANTS: usize> Machine for With<S, CONSTANTS> {
     const CHAIN: Chain = S::CHAIN;
-    const RATING: Rating = Rating {
-        torque: Torque(S::SET.rated_torque),
-        speed: Speed(RATED_SPEED),
-        torque_limit: Torque(1.2 * S::SET.rated_torque),
-    };
+    const RATING: Rating = S::SET.rating();
     const ENCODER: Encoder = ENCODER;
     const RATE_HZ: u32 = RATE_HZ;
     const TWO_MASS: TwoMassMachine = S::SET.machine;
     const DISTURBANCE: Disturbance = S::SET.disturbance;
-    const OBSERVER: TwoMassDesign = S::DESIGNS.observer;
-    /// The gains allow for the delay of the speed filter, which is a part of its own in the loop's test.
-    const GAINS: GainSource = GainSource::Governor(GovernorDesign {
-        actuator: Actuator { delay: S::SET.actuator.delay - VIEW_DELAY, ..S::SET.actuator },
-        ..S::DESIGNS.governors[if CONSTANTS == FED { 0 } else { 1 }]
-    });
+    const ACTUATOR: Actuator = S::SET.actuator;
+    const GAINS: GainSource = GainSource::Governor(S::SET.governor(CONSTANTS == FED));
     /// The diesel without feed-forward has 28.9 degrees.
     const ROBUSTNESS: Robustness = Robustness { phase: 0.5, ..Robustness::USUAL };
     const RAMP: f64 = S::SET.ramp;
@@ -391,39 +347,14 @@ impl<S: HasSet, const CONSTANTS: usize> HasTorqueCurve<4> for With<S, CONSTANTS>
     const CURVE: TorqueCurve<4> = S::SET.curve;
 }
 
-impl<S: HasSet, const CONSTANTS: usize> HasSequencer for With<S, CONSTANTS> {
-    const SEQUENCER: SequencerSettings = S::SET.modes();
-}
+impl<S: HasSet, const CONSTANTS: usize> HasSequencer for With<S, CONSTANTS> {}
 
-/// The constants of a set in a number, beside those of its drive at the start.
-pub trait InNumber<N: Number + 'static>: HasSet {
-    /// Its compensation.
-    type Added: Part<N, State: Compensation<N, Config: 'static>>;
-    /// The constants that the panel chooses from.
-    const CONFIGS: &'static [ConfigOf<DriveOf<N, Self::Added>>; 3];
-    /// The watch on the actuator.
-    const WATCH: ActuatorMonitorConfig<N, 2>;
+impl<S: HasSet, const CONSTANTS: usize> HasActuator<2> for With<S, CONSTANTS> {
+    const LAGS: [f64; 2] = S::SET.lags;
+    const TORQUE_DELAY: f64 = S::SET.delay;
+    const MONITOR: ActuatorMonitorSettings =
+        ActuatorMonitorSettings { timeout: S::SET.timeout, ..ActuatorMonitorSettings::of(&Self::RATING) };
 }
-
-macro_rules! in_number {
-    ($set:ident, $number:ty, $added:ty, $bases:expr) => {
-        impl InNumber<$number> for $set {
-            type Added = $added;
-            const CONFIGS: &'static [ConfigOf<DriveOf<$number, $added>>; 3] = &[
-                DriveOf::<$number, $added>::configure::<With<$set, FED>>(),
-                DriveOf::<$number, $added>::configure::<With<$set, PLAIN>>(),
-                DriveOf::<$number, $added>::configure::<With<$set, DROOPING>>(),
-            ];
-            const WATCH: ActuatorMonitorConfig<$number, 2> =
-                ActuatorMonitorConfig::<$number, 2>::new(&Self::SET.lags, &Self::SET.watch(), PERIOD, $bases);
-        }
-    };
-}
-
-in_number!(DieselSet, f32, FeedForward, Bases::SI);
-in_number!(DieselSet, Fixed, FeedForward, Self::SET.bases());
-in_number!(TurbineSet, f32, (FeedForward, AccelerationFeedback), Bases::SI);
-in_number!(TurbineSet, Fixed, (FeedForward, AccelerationFeedback), Self::SET.bases());
 
 /// Setpoints and switches of the panel, as keys of its requests.
 pub mod panel {
@@ -447,90 +378,73 @@ pub fn mode_word(mode: RunState) -> u32 {
     }
 }
 
-/// What stands beside a set's drive: its run switch ([`Input::RELEASED`]: on it starts, off it brakes, and off resets a
-/// trip), the watch on its actuator, and the delay from the rack to the torque.
-pub struct Actuated<N: Number, S> {
-    watch: ActuatorMonitor<N, 2>,
-    rack: TransportDelay<N, RING>,
-    released: bool,
-    set: PhantomData<S>,
+/// A set's drive with the constants that the panel chooses from.
+pub trait Choices: Composition<Config: 'static, Governor: HasRunSequence> {
+    /// In the order of [`FED`], [`PLAIN`], [`DROOPING`].
+    const CONFIGS: &'static [ConfigOf<Self>; 3];
 }
 
-impl<N: Number + 'static, S: InNumber<N>> Actuated<N, S> {
-    const RACK: TransportDelayConfig<RING> = TransportDelayConfig::new(S::SET.delay, PERIOD);
-
-    #[cold]
-    fn trip(drive: &mut DriveOf<N, S::Added>, reason: Trip) {
-        drive.governor_mut().sequence_mut().trip(reason);
-    }
-
-    // inlined: a call would cost as much again
-    #[inline(always)]
-    fn switched(&mut self, drive: &mut DriveOf<N, S::Added>, released: bool) {
-        self.released = released;
-        let modes = drive.governor_mut().sequence_mut();
-        if released {
-            modes.request(RunRequest::Start);
-        } else if !modes.request(RunRequest::Stop) {
-            modes.request(RunRequest::Reset);
+macro_rules! choices {
+    ($($set:ident: $added:ty, $ring:literal in $($number:ty),+;)+) => {$($(
+        impl Choices for DriveOf<$number, $added, $ring> {
+            const CONFIGS: &'static [ConfigOf<Self>; 3] = &[
+                Self::configure::<With<$set, FED>>(),
+                Self::configure::<With<$set, PLAIN>>(),
+                Self::configure::<With<$set, DROOPING>>(),
+            ];
         }
-    }
+    )+)+};
 }
 
-impl<N, S, F> Beside<DriveOf<N, F>> for Actuated<N, S>
-where
-    N: Number + 'static,
-    S: InNumber<N, Added = F>,
-    F: Part<N, State: Compensation<N, Config: 'static>>,
-{
-    fn constants(_: &'static ConfigOf<DriveOf<N, F>>) -> &'static ConfigOf<DriveOf<N, F>> {
-        let [first, ..] = S::CONFIGS;
-        first
+choices! {
+    DieselSet: FeedForward, 32 in f32, Fixed;
+    TurbineSet: (FeedForward, AccelerationFeedback), 1 in f32, Fixed;
+}
+
+/// The set's run switch ([`Input::RELEASED`]: on it starts, off it brakes, and off resets a trip) and its panel.
+pub struct Switches {
+    released: bool,
+}
+
+impl<D: Choices> Beside<D> for Switches {
+    fn constants(_: &'static ConfigOf<D>) -> &'static ConfigOf<D> {
+        &D::CONFIGS[FED]
     }
 
-    fn start(_: &mut DriveOf<N, F>, _: &ConfigOf<DriveOf<N, F>>) -> Self {
-        Actuated { watch: ActuatorMonitor::new(), rack: TransportDelay::new(), released: false, set: PhantomData }
+    fn start(_: &mut D, _: &ConfigOf<D>) -> Self {
+        Switches { released: false }
     }
 
     #[inline(always)]
-    fn tick(&mut self, drive: &mut DriveOf<N, F>, config: &ConfigOf<DriveOf<N, F>>, input: &Input) -> Output {
+    fn tick(&mut self, drive: &mut D, config: &ConfigOf<D>, input: &Input) -> Output {
         let released = input.flags & Input::RELEASED != 0;
         if released != self.released {
-            self.switched(drive, released);
+            self.released = released;
+            let modes = drive.governor_mut().sequencer_mut();
+            if released {
+                modes.request(RunRequest::Start);
+            } else if !modes.request(RunRequest::Stop) {
+                modes.request(RunRequest::Reset);
+            }
         }
-        let (told, unlike) = self.watch.check(&S::WATCH, N::from_word(input.torque));
-        if let Some(reason) = self.watch.trip(&S::WATCH) {
-            Self::trip(drive, reason);
-        }
-        let torque = self.rack.delayed(&Self::RACK, told);
-        let mut command =
-            drive.tick(config, &Sample { angle: input.angle, torque, setpoint: N::from_word(input.setpoint) });
-        command.faults |= unlike;
-        self.watch.advance(&S::WATCH, command.torque);
+        let command = drive.tick(config, &sample(input));
         output(&command, &drive.estimate(config))
     }
 
-    fn panel(
-        &mut self,
-        drive: &mut DriveOf<N, F>,
-        config: &mut &'static ConfigOf<DriveOf<N, F>>,
-        [key, value]: [u32; 2],
-    ) -> u32 {
+    fn panel(&mut self, drive: &mut D, config: &mut &'static ConfigOf<D>, [key, value]: [u32; 2]) -> u32 {
+        let modes = drive.governor_mut().sequencer_mut();
         match key {
             panel::CONSTANTS => {
-                if let Some(to) = S::CONFIGS.get(value as usize) {
-                    let estimate = drive.estimate(config);
-                    drive.governor_mut().switch(&config.governor, &to.governor, &estimate);
+                if let Some(to) = D::CONFIGS.get(value as usize) {
+                    drive.switch(config, to);
                     *config = to;
                 }
-                value
+                return value;
             }
-            panel::TRIP => {
-                Self::trip(drive, Trip::Requested);
-                mode_word(drive.governor().sequence().state())
-            }
-            panel::MODE => mode_word(drive.governor().sequence().state()),
-            _ => 0,
-        }
+            panel::TRIP => modes.trip(Trip::Requested),
+            panel::MODE => true,
+            _ => return 0,
+        };
+        mode_word(modes.state())
     }
 }

@@ -6,14 +6,16 @@ macro_rules! parts {
         pub mod $module {
             use super::super::*;
             use crate::scenes::hoist::Hoist;
+            use driveline::design::Averaging;
             use driveline::governor::{
                 ActiveDampingConfig, BarredConfig, CurveConfig, DroopConfig, FeedForwardConfig, Gains,
                 MovingAverageConfig, SequencerConfig, SlewConfig, SymmetricLimitConfig, TorqueRangeConfig,
             };
+            use driveline::settings::{SequencerSettings, SpeedLoopSettings};
 
             /// Gains and ramp.
             pub const GAINS: Gains<$number> = Gains::<$number>::new(
-                &DIESEL.governor(false),
+                &DIESEL.governor(false).behind(Averaging::Ticks(FIRING as u32)),
                 SpeedLoopSettings { torque_limit: DIESEL_TORQUE, ramp: DIESEL.ramp },
                 $bases,
             );
@@ -48,7 +50,7 @@ macro_rules! parts {
                     underspeed: -1.0,
                     reverse: 1.9 * RATED_SPEED,
                     shaft_torque: 3.0 * DIESEL_TORQUE,
-                    ..DIESEL.modes()
+                    ..SequencerSettings::of(&DIESEL.rating())
                 },
                 PERIOD,
                 $bases,
