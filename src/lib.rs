@@ -131,6 +131,16 @@ mod first_drive_on_a_board {}
 #[doc = include_str!("../doc/hoist.md")]
 mod hoist {}
 
+/// The listing of the generator set.
+#[cfg(doctest)]
+#[doc = include_str!("../doc/generator-set.md")]
+mod generator_set {}
+
+/// The listing of the rolling mill.
+#[cfg(doctest)]
+#[doc = include_str!("../doc/rolling-mill.md")]
+mod rolling_mill {}
+
 /// The listing of the rotor that balances itself.
 #[cfg(all(doctest, feature = "balancing"))]
 #[doc = include_str!("../doc/self-balancing.md")]

@@ -3,7 +3,7 @@
 pub use crate::adaptive::{Adaptive, Known, Learners, LoadAndRope};
 pub use crate::configure::{HasLoadAndRope, Machine, Rating};
 pub use crate::design::{Disturbance, Encoder};
-pub use crate::drive::{ConfigOf, Drive};
+pub use crate::drive::{Actuated, ConfigOf, Drive};
 pub use crate::governor::SpeedLoop;
 pub use crate::machine::{
     Chain, Damping, Diameter, Efficiency, Falls, Inertia, Length, LinearDamping, Mass, Ratio, Speed, Stiffness, Torque,
