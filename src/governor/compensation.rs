@@ -46,6 +46,8 @@ impl<N: Number, A: Compensation<N>, B: Compensation<N>> Compensation<N> for (A, 
 /// delay ([`TransportDelay`](super::TransportDelay)), or the feed-forward feeds itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias = "feed forward")]
+#[doc(alias = "feedforward")]
 pub struct FeedForward;
 
 impl<N> Part<N> for FeedForward {

@@ -61,6 +61,9 @@ pub struct SpeedGovernorConfig<N: Number, S, F, L, M, V> {
 /// sequence, `V` filters the speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias = "PI")]
+#[doc(alias = "PID")]
+#[doc(alias = "anti-windup")]
 pub struct SpeedGovernor<S = (), F = (), L = SymmetricLimit, M = (), V = (), N = f32> {
     integral: N,
     ramped: N,

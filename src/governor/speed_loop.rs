@@ -44,6 +44,9 @@ impl<N: Number> SpeedLoopConfig<N> {
 /// State of the speed loop.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias = "PI")]
+#[doc(alias = "PID")]
+#[doc(alias = "anti-windup")]
 pub struct SpeedLoop<F = (), N = f32> {
     integral: N,
     ramped: N,

@@ -42,6 +42,7 @@ quantity! {
 
 impl Speed {
     /// From r/min.
+    #[doc(alias = "r/min")]
     #[must_use]
     pub const fn rpm(speed: f64) -> Speed {
         Speed(speed * (core::f64::consts::TAU / 60.0))
