@@ -38,6 +38,7 @@
 //! | `SpeedLoop` | [`Machine::SPEED_LOOP`], [`Machine::RAMP`], torque limit, those of its filters | |
 //! | `SetpointLag` | none | |
 //! | `DampingLag` | [`Machine::SPEED_LOOP`] | a design with a lag of the damping |
+//! | `SpeedLag` | [`Machine::SPEED_LOOP`] | a design with a lag of the speed |
 //! | `SpeedGovernor` | [`Machine::GAINS`], [`Machine::RAMP`], those of its parts | |
 //! | `SymmetricLimit`, `TorqueRange` | torque limit, [`Machine::LEAST_TORQUE`] | |
 //! | `Curve` | [`HasTorqueCurve::CURVE`], [`Machine::LEAST_TORQUE`] | [`HasTorqueCurve`] |
@@ -78,6 +79,8 @@
 //!     const TOLERANCE: Tolerance = Tolerance {
 //!         load_inertia: Spread::between(0.05, 1.1),
 //!         stiffness: Spread::between(0.4, 2.4),
+//!         // the rope's damping was measured
+//!         damping: Spread::between(0.5, 2.0),
 //!         ..Tolerance::USUAL
 //!     };
 //! # }

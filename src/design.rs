@@ -50,6 +50,7 @@ mod supervision;
 mod tolerance;
 mod torque_curve;
 mod tuning;
+mod undescribed;
 
 pub use approximate::{Fidelity, SemiImplicitStep, StepChoice};
 pub use backlash::{BacklashDesign, BacklashTuning};
@@ -83,3 +84,4 @@ pub use supervision::{InnovationResponse, LoadStep, Supervision};
 pub use tolerance::{Spread, Tolerance};
 pub use torque_curve::TorqueCurve;
 pub use tuning::{Disturbance, Encoder, Rate};
+pub use undescribed::Undescribed;

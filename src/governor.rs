@@ -46,7 +46,7 @@ pub use limit::{
     TorqueRangeConfig,
 };
 pub use load_sharing::{LoadSharing, LoadSharingConfig};
-pub use loop_filter::{DampingLag, DampingLagConfig, LoopFilter, SetpointLag};
+pub use loop_filter::{DampingLag, LagConfig, LoopFilter, SetpointLag, SpeedLag};
 pub use resistor_starter::{ResistorStarter, ResistorStarterConfig};
 pub use sequencer::{HasRunSequence, RunAction, RunRequest, RunState, Sequence, Sequencer, SequencerConfig, Trip};
 pub use setpoint::{Barred, BarredConfig, Droop, DroopConfig, SetpointShape, SpeedRange};

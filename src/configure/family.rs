@@ -5,7 +5,7 @@ use crate::balancing::Balancer;
 use crate::design::{Disturbance, PlacedObserver, SpeedLoopDesign, SpeedLoopTuning};
 use crate::drive::{Composition, Drive};
 use crate::fluctuation::Fluctuation;
-use crate::governor::{DampingLag, DampingLagConfig, Governor, LoopFilter, SetpointLag, SpeedLoop, SpeedLoopConfig};
+use crate::governor::{DampingLag, Governor, LagConfig, LoopFilter, SetpointLag, SpeedLag, SpeedLoop, SpeedLoopConfig};
 use crate::learning::{Correction, EccentricityObserver};
 use crate::machine::{Length, Mass, Match, TwoMass};
 use crate::math::{exp, ln};
@@ -101,7 +101,7 @@ pub trait Family<const A: usize, const B: usize>: Machine {
     const DAMPING: [[f64; B]; A] = [[SpeedLoopTuning::TWIST_GAIN; B]; A];
     /// The speed loops at the points: [`TwoMass::try_limited_speed_loop`] with the bandwidth of
     /// [`Machine::SPEED_LOOP`] and the [`DAMPING`](Self::DAMPING). A lag of its damping is in proportion to the period
-    /// of the member's resonance.
+    /// of the member's resonance, one of its speed to the reciprocal of the member's bandwidth.
     const SPEED_LOOPS: [[SpeedLoopDesign; B]; A] = {
         let mut loops = [[Self::SPEED_LOOP; B]; A];
         let bandwidth = Self::SPEED_LOOP.bandwidth;
@@ -112,7 +112,10 @@ pub trait Family<const A: usize, const B: usize>: Machine {
                 match Self::MEMBERS[i][j].try_limited_speed_loop(Self::RATE, bandwidth, Self::DAMPING[i][j]) {
                     Ok(design) => {
                         let period = Self::TWO_MASS.resonance() / Self::MEMBERS[i][j].resonance();
-                        loops[i][j] = design.with_damping_lag(Self::SPEED_LOOP.damping_lag * period);
+                        let slower = bandwidth / design.bandwidth;
+                        loops[i][j] = design
+                            .with_damping_lag(Self::SPEED_LOOP.damping_lag * period)
+                            .with_speed_lag(Self::SPEED_LOOP.speed_lag * slower);
                     }
                     Err(error) => error.stop(),
                 }
@@ -284,7 +287,13 @@ macro_rules! scheduled {
 
         impl<M: Family<A, B>, const A: usize, const B: usize> Scheduled<M, $number, A, B> for DampingLag {
             const CELLS: [[Self::Config; B]; A] = cells!(<Self as Configure<M, $number>>::CONFIG, |i, j| {
-                DampingLagConfig::<$number>::new(M::SPEED_LOOPS[i][j].damping_lag, M::PERIOD, $bases)
+                LagConfig::<$number>::new(M::SPEED_LOOPS[i][j].damping_lag, M::PERIOD, $bases)
+            });
+        }
+
+        impl<M: Family<A, B>, const A: usize, const B: usize> Scheduled<M, $number, A, B> for SpeedLag {
+            const CELLS: [[Self::Config; B]; A] = cells!(<Self as Configure<M, $number>>::CONFIG, |i, j| {
+                LagConfig::<$number>::new(M::SPEED_LOOPS[i][j].speed_lag, M::PERIOD, $bases)
             });
         }
 

@@ -8,11 +8,11 @@ use crate::design::{
 use crate::governor::{
     AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, ActuatorMonitor,
     ActuatorMonitorConfig, BacklashTakeUp, BacklashTakeUpConfig, Barred, BarredConfig, Curve, CurveConfig,
-    CycleAverage, DampingLag, DampingLagConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, InputShaper,
-    InputShaperConfig, LoadSharing, LoadSharingConfig, LoopFilter, MovingAverage, MovingAverageConfig, Sequencer,
-    SequencerConfig, SetpointLag, Slew, SlewConfig, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig,
-    Supervised, SupervisedConfig, SupervisionConfig, SymmetricLimit, SymmetricLimitConfig, TorqueRange,
-    TorqueRangeConfig,
+    CycleAverage, DampingLag, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, InputShaper,
+    InputShaperConfig, LagConfig, LoadSharing, LoadSharingConfig, LoopFilter, MovingAverage, MovingAverageConfig,
+    Sequencer, SequencerConfig, SetpointLag, Slew, SlewConfig, SpeedGovernor, SpeedGovernorConfig, SpeedLag, SpeedLoop,
+    SpeedLoopConfig, Supervised, SupervisedConfig, SupervisionConfig, SymmetricLimit, SymmetricLimitConfig,
+    TorqueRange, TorqueRangeConfig,
 };
 use crate::number::{Fixed, Number, Part};
 use crate::settings::{ActuatorMonitorSettings, Bases, LoadSharingSettings, SequencerSettings, SpeedLoopSettings};
@@ -109,7 +109,7 @@ where
         let gains = match M::GAINS {
             // the compensation brings the damping, and has no lag
             GainSource::SpeedLoop(design) => {
-                GainSource::SpeedLoop(SpeedLoopDesign { damping: 0.0, damping_lag: 0.0, ..design })
+                GainSource::SpeedLoop(SpeedLoopDesign { damping: 0.0, damping_lag: 0.0, speed_lag: 0.0, ..design })
             }
             GainSource::Governor(design) => GainSource::Governor(design.behind(V::LOOP.averaging)),
         };
@@ -153,8 +153,10 @@ const fn speed_loop_settings<M: Machine>() -> SpeedLoopSettings {
 macro_rules! governors {
     ($number:ident, $bases:expr) => {
         parts! { $number, $bases;
-            [] Machine, DampingLag => DampingLagConfig<$number>,
-                DampingLagConfig::<$number>::new(M::SPEED_LOOP.damping_lag, M::PERIOD, $bases);
+            [] Machine, DampingLag => LagConfig<$number>,
+                LagConfig::<$number>::new(M::SPEED_LOOP.damping_lag, M::PERIOD, $bases);
+            [] Machine, SpeedLag => LagConfig<$number>,
+                LagConfig::<$number>::new(M::SPEED_LOOP.speed_lag, M::PERIOD, $bases);
             [] HasDroop, Droop => DroopConfig<$number>,
                 DroopConfig::<$number>::new(M::DROOP, M::RATING.speed.0, M::RATING.torque.0, $bases);
             [K] HasBarredSpeeds<K>, Barred<K> => BarredConfig<$number, K>,
@@ -210,6 +212,11 @@ macro_rules! governors {
                     <F::State as LoopFilter<$number>>::LAGS_DAMPING == (M::SPEED_LOOP.damping_lag > 0.0),
                     "the speed loop's design and its governor differ in the lag of the damping: give the design \
                         with_damping_lag and the governor DampingLag, or neither"
+                );
+                assert!(
+                    <F::State as LoopFilter<$number>>::LAGS_SPEED == (M::SPEED_LOOP.speed_lag > 0.0),
+                    "the speed loop's design and its governor differ in the lag of the speed: give the design \
+                        with_speed_lag and the governor SpeedLag, or neither"
                 );
                 SpeedLoopConfig::<$number>::new(&M::SPEED_LOOP, speed_loop_settings::<M>(), $bases)
                     .with_filter(F::CONFIG)

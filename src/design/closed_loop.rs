@@ -126,7 +126,7 @@ impl ClosedLoop {
     }
 
     const fn close(o: &Observer, speed_loop: &SpeedLoopDesign, actuator: Actuator) -> Result<Self, Error> {
-        let SpeedLoopDesign { proportional, integral, damping: slip, damping_lag, .. } = *speed_loop;
+        let SpeedLoopDesign { proportional, integral, damping: slip, damping_lag, speed_lag, .. } = *speed_loop;
         let t = o.period;
         if (t - speed_loop.period).abs() > 1e-9 * t {
             return Err(Error::Period);
@@ -142,8 +142,9 @@ impl ClosedLoop {
         let square = &o.twist.denominator;
         // Of the mean speed, and of the twist rate, times delta: the governor's law.
         let (damps, lags_damping) = first_order(damping_lag, t);
-        let law = Polynomial::new([integral * t, proportional + integral * t]).times(&lags_damping);
-        let law_of_slip = law.scaled(o.share).plus(slip, &damps.raised(1));
+        let (follows, lags_speed) = first_order(speed_lag, t);
+        let law = Polynomial::new([integral * t, proportional + integral * t]).times(&follows).times(&lags_damping);
+        let law_of_slip = law.scaled(o.share).plus(slip, &damps.times(&lags_speed).raised(1));
 
         // Effect of an innovation: mean angle times delta^3; twist and twist rate without the load torque's part; twist
         // rate.
@@ -181,7 +182,7 @@ impl ClosedLoop {
         let known = of_torque.raised(1).scaled(1.0 - o.angle).plus(1.0, &Polynomial::Z.times(&both));
 
         let (acts, lags) = lagged(lag, t);
-        let mut late = lags.times(&lags_damping).times(&poles);
+        let mut late = lags.times(&lags_damping).times(&lags_speed).times(&poles);
         let mut tick = 0.0;
         while tick < ticks {
             late = late.times(&Polynomial::Z);
@@ -199,6 +200,16 @@ impl ClosedLoop {
     const fn open(&self, plant: &Plant) -> (Polynomial, Polynomial) {
         let (numerator, denominator) = plant.sampled(self.period);
         (numerator.times(&self.numerator), denominator.times(&self.denominator))
+    }
+
+    /// Numerator of the controller times the machine's denominator, and both of the [`open`](Self::open) loop.
+    pub(super) const fn parts(
+        &self,
+        numerator: &Polynomial,
+        denominator: &Polynomial,
+    ) -> (Polynomial, Polynomial, Polynomial) {
+        let controller = self.numerator.times(denominator);
+        (controller, self.numerator.times(numerator), self.denominator.times(denominator))
     }
 
     /// Response of the loop round a machine at a frequency (rad/s), as real and imaginary part: the torque that the

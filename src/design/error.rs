@@ -70,6 +70,13 @@ sentences! {
         bandwidth (SpeedLoopTuning::with_bandwidth) or less damping of a take-up, or name a narrower TOLERANCE",
     LoopStiffness => "the speed loop with its observer is unstable at the tolerance of the stiffness: take less \
         bandwidth (SpeedLoopTuning::with_bandwidth) or less damping of a take-up, or name a narrower TOLERANCE",
+    LoopDamping => "the speed loop with its observer is unstable at the tolerance of the shaft's damping: take less \
+        bandwidth (SpeedLoopTuning::with_bandwidth), a lag of the speed (SpeedLoopDesign::with_speed_lag and the \
+        governor SpeedLag), or name a narrower TOLERANCE",
+    LoopUndescribed => "the speed loop with its observer is unstable, or lacks the gain margin of ROBUSTNESS, with a \
+        resonance that the description leaves out (TOLERANCE: undescribed): take less active damping \
+        (SpeedLoopTuning::of), a lag of the speed (SpeedLoopDesign::with_speed_lag and the governor SpeedLag) or less \
+        bandwidth, or describe the machine up to a higher frequency and name it in TOLERANCE",
     LoopTorque => "the speed loop with its observer is unstable at the tolerance of the torque: take less bandwidth \
         (SpeedLoopTuning::with_bandwidth) or less damping of a take-up, or name a narrower TOLERANCE",
     LoopLate => "the speed loop with its observer is unstable with a torque as late as TOLERANCE allows: take less \

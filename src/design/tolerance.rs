@@ -1,5 +1,6 @@
 //! Tolerances of a machine: how far it may differ from its description.
 
+use super::Undescribed;
 use crate::machine::TwoMass;
 use crate::math::{exp, ln};
 
@@ -90,12 +91,17 @@ pub struct Tolerance {
     pub efficiency: f64,
     /// Gap of a backlash.
     pub gap: Spread,
+    /// Damping of the shaft. The loop is tested with the least.
+    pub damping: Spread,
+    /// A resonance that the description leaves out.
+    pub undescribed: Undescribed,
 }
 
 impl Tolerance {
     /// A machine by its drawings and a motor by its data sheet: motor side 10 %, load side and stiffness 20 %, torque
     /// constant 5 %, a torque that may come a tick late and through a current control of 500 Hz, an offset of 1 % of
-    /// rated torque, an efficiency off by 3 points, a gap off by 30 %.
+    /// rated torque, an efficiency off by 3 points, a gap off by 30 %, damping of a tenth to twice, and
+    /// [`Undescribed::USUAL`].
     pub const USUAL: Self = Self {
         motor_inertia: Spread::within(0.1),
         load_inertia: Spread::within(0.2),
@@ -106,6 +112,8 @@ impl Tolerance {
         offset: 0.01,
         efficiency: 0.03,
         gap: Spread::within(0.3),
+        damping: Spread::between(0.1, 2.0),
+        undescribed: Undescribed::USUAL,
     };
 
     /// Everything is as described.
@@ -119,14 +127,23 @@ impl Tolerance {
         offset: 0.0,
         efficiency: 0.0,
         gap: Spread::NONE,
+        damping: Spread::NONE,
+        undescribed: Undescribed::NONE,
     };
 
     /// Whether every field is in its range.
     pub(super) const fn is_sound(&self) -> bool {
-        let Self { motor_inertia, load_inertia, stiffness, torque, late: _, lag, offset, efficiency, gap } = self;
-        let spreads = motor_inertia.is_sound() && load_inertia.is_sound() && stiffness.is_sound() && torque.is_sound();
+        let Self { motor_inertia, load_inertia, stiffness, torque, lag, offset, efficiency, gap, .. } = self;
+        let inertias = motor_inertia.is_sound() && load_inertia.is_sound();
+        let spreads = inertias && stiffness.is_sound() && self.damping.is_sound() && torque.is_sound();
         let rest = *offset >= 0.0 && offset.is_finite() && *efficiency >= 0.0 && *efficiency < 1.0;
-        spreads && rest && gap.min >= 0.0 && gap.max >= gap.min && *lag >= 0.0 && lag.is_finite()
+        spreads
+            && rest
+            && self.undescribed.is_sound()
+            && gap.min >= 0.0
+            && gap.max >= gap.min
+            && *lag >= 0.0
+            && lag.is_finite()
     }
 
     /// Number of machines that sample these tolerances: all combinations of the points of both inertias and the
@@ -136,7 +153,7 @@ impl Tolerance {
         self.motor_inertia.points() * self.load_inertia.points() * self.stiffness.points()
     }
 
-    /// One of the [`machines`](Self::machines), by its index from 0.
+    /// One of the [`machines`](Self::machines), by its index from 0, with the least damping.
     #[must_use]
     pub const fn machine(&self, nominal: &TwoMass, index: u32) -> TwoMass {
         let (motor, load) = (self.motor_inertia.points(), self.load_inertia.points());
@@ -144,6 +161,7 @@ impl Tolerance {
         machine.motor_inertia *= self.motor_inertia.at(index % motor);
         machine.load_inertia *= self.load_inertia.at(index / motor % load);
         machine.stiffness *= self.stiffness.at(index / motor / load);
+        machine.damping *= self.damping.min;
         machine
     }
 }

@@ -1,4 +1,4 @@
-//! Filters in the speed loop: lag of the setpoint, lag of the active damping.
+//! Filters in the speed loop: lag of the setpoint, of the speed, of the active damping.
 
 use crate::number::{Number, Part};
 
@@ -11,6 +11,9 @@ pub trait LoopFilter<N: Number>: Default {
 
     /// Whether the damping lags.
     const LAGS_DAMPING: bool = false;
+
+    /// Whether the speed lags.
+    const LAGS_SPEED: bool = false;
 
     /// The setpoint for the loop, once a tick: the ramp has moved by `step` to `ramped`. `share` is the integral's part
     /// of the gain in a tick, k_i T/(k_p + k_i T): the distance of the loop's zero from 1.
@@ -25,6 +28,17 @@ pub trait LoopFilter<N: Number>: Default {
         twist_rate
     }
 
+    /// The motor's speed for the proportional and integral part, once a tick.
+    #[inline(always)]
+    fn speed(&mut self, _carry: &mut N::Carry, _config: &Self::Config, speed: N) -> N {
+        speed
+    }
+
+    /// Starts at rest, with the motor at this speed.
+    fn start(&mut self, _speed: N) {
+        *self = Self::default();
+    }
+
     /// The filtered setpoint of the last tick.
     fn filtered_setpoint(&self, ramped: N) -> N {
         ramped
@@ -33,6 +47,11 @@ pub trait LoopFilter<N: Number>: Default {
     /// The filtered twist rate of the last tick; `twist_rate` is the estimated one.
     fn filtered_twist_rate(&self, twist_rate: N) -> N {
         twist_rate
+    }
+
+    /// The filtered speed of the last tick; `speed` is the estimated one.
+    fn filtered_speed(&self, speed: N) -> N {
+        speed
     }
 }
 
@@ -45,6 +64,7 @@ impl<N: Number, A: LoopFilter<N>, B: LoopFilter<N>> LoopFilter<N> for (A, B) {
     type Config = (A::Config, B::Config);
 
     const LAGS_DAMPING: bool = A::LAGS_DAMPING || B::LAGS_DAMPING;
+    const LAGS_SPEED: bool = A::LAGS_SPEED || B::LAGS_SPEED;
 
     #[inline(always)]
     fn setpoint(&mut self, carry: &mut N::Carry, share: N::Coefficient, step: N, ramped: N) -> N {
@@ -59,8 +79,23 @@ impl<N: Number, A: LoopFilter<N>, B: LoopFilter<N>> LoopFilter<N> for (A, B) {
         self.1.twist_rate(carry, &config.1, first)
     }
 
+    #[inline(always)]
+    fn speed(&mut self, carry: &mut N::Carry, config: &Self::Config, speed: N) -> N {
+        let first = self.0.speed(carry, &config.0, speed);
+        self.1.speed(carry, &config.1, first)
+    }
+
+    fn start(&mut self, speed: N) {
+        self.0.start(speed);
+        self.1.start(speed);
+    }
+
     fn filtered_setpoint(&self, ramped: N) -> N {
         self.1.filtered_setpoint(self.0.filtered_setpoint(ramped))
+    }
+
+    fn filtered_speed(&self, speed: N) -> N {
+        self.1.filtered_speed(self.0.filtered_speed(speed))
     }
 
     fn filtered_twist_rate(&self, twist_rate: N) -> N {
@@ -118,21 +153,21 @@ impl<N> Part<N> for DampingLag {
     type State = DampingLag<N>;
 }
 
-/// Constants of [`DampingLag`].
+/// Constants of [`DampingLag`] and [`SpeedLag`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct DampingLagConfig<N: Number> {
+pub struct LagConfig<N: Number> {
     /// Share of a step that the lag covers in a tick.
     pub share: N::Coefficient,
 }
 
 impl<N: Number> LoopFilter<N> for DampingLag<N> {
-    type Config = DampingLagConfig<N>;
+    type Config = LagConfig<N>;
 
     const LAGS_DAMPING: bool = true;
 
     #[inline(always)]
-    fn twist_rate(&mut self, carry: &mut N::Carry, config: &DampingLagConfig<N>, twist_rate: N) -> N {
+    fn twist_rate(&mut self, carry: &mut N::Carry, config: &LagConfig<N>, twist_rate: N) -> N {
         // In fixed point both are within twice the base, their difference within four times.
         let behind = twist_rate.saturated() - self.twist_rate;
         self.twist_rate = self.twist_rate.accumulate(carry, [config.share], [behind]);
@@ -144,13 +179,49 @@ impl<N: Number> LoopFilter<N> for DampingLag<N> {
     }
 }
 
+/// Lag of the motor's speed in the proportional and integral part: the loop's gain falls with the frequency above its
+/// reciprocal.
+///
+/// A resonance that is not described, or has less damping than described, is then not excited by a torque that is late.
+/// [`SpeedLoopDesign::with_speed_lag`](crate::design::SpeedLoopDesign::with_speed_lag) has the phase that it costs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct SpeedLag<N = f32> {
+    speed: N,
+}
+
+impl<N> Part<N> for SpeedLag {
+    type State = SpeedLag<N>;
+}
+
+impl<N: Number> LoopFilter<N> for SpeedLag<N> {
+    type Config = LagConfig<N>;
+
+    const LAGS_SPEED: bool = true;
+
+    #[inline(always)]
+    fn speed(&mut self, carry: &mut N::Carry, config: &LagConfig<N>, speed: N) -> N {
+        let behind = speed.saturated() - self.speed;
+        self.speed = self.speed.accumulate(carry, [config.share], [behind]);
+        self.speed
+    }
+
+    fn start(&mut self, speed: N) {
+        self.speed = speed;
+    }
+
+    fn filtered_speed(&self, _speed: N) -> N {
+        self.speed
+    }
+}
+
 #[cfg(test)]
 mod tests {
     extern crate std;
 
     use std::vec::Vec;
 
-    use super::{DampingLag, DampingLagConfig, LoopFilter, SetpointLag};
+    use super::{DampingLag, LagConfig, LoopFilter, SetpointLag, SpeedLag};
     use crate::governor::{Governor, SpeedLoop, SpeedLoopConfig};
     use crate::sample::Estimate;
 
@@ -250,13 +321,16 @@ mod tests {
     /// A sine comes through with the gain of a first-order lag that is sampled: `c/|1 - (1 - c) e^(-j w T)|`, in every
     /// number.
     #[test]
-    fn the_damping_is_lagged_by_a_first_order_lag() {
+    fn damping_and_speed_are_lagged_by_a_first_order_lag() {
         use crate::number::{Fixed, Number};
         use crate::settings::Bases;
-        fn gain<N: Number>(config: &DampingLagConfig<N>, angle: f64, number: fn(f64) -> N) -> f64 {
+        fn gain<N: Number>(config: &LagConfig<N>, angle: f64, number: fn(f64) -> N) -> f64 {
             let (mut lag, mut carry, mut peak) = (DampingLag::<N>::default(), N::CARRY, 0.0_f64);
+            let (mut speed, mut other) = (SpeedLag::<N>::default(), N::CARRY);
             for tick in 0..20_000 {
-                let out = lag.twist_rate(&mut carry, config, number((angle * f64::from(tick)).sin())).to_real();
+                let sine = number((angle * f64::from(tick)).sin());
+                let out = lag.twist_rate(&mut carry, config, sine).to_real();
+                assert_eq!(speed.speed(&mut other, config, sine).to_real(), out);
                 peak = if tick > 10_000 { peak.max(out.abs()) } else { 0.0 };
             }
             peak
@@ -268,9 +342,9 @@ mod tests {
             let (sine, cosine) = angle.sin_cos();
             let expected = share / (1.0 - (1.0 - share) * cosine).hypot((1.0 - share) * sine);
             let all = [
-                gain(&DampingLagConfig::<f64>::new(lag, period, Bases::SI), angle, |x| x),
-                gain(&DampingLagConfig::<f32>::new(lag, period, Bases::SI), angle, |x| x as f32),
-                gain(&DampingLagConfig::<Fixed>::new(lag, period, Bases::SI), angle, Fixed::from_f64),
+                gain(&LagConfig::<f64>::new(lag, period, Bases::SI), angle, |x| x),
+                gain(&LagConfig::<f32>::new(lag, period, Bases::SI), angle, |x| x as f32),
+                gain(&LagConfig::<Fixed>::new(lag, period, Bases::SI), angle, Fixed::from_f64),
             ];
             // The largest of many samples misses the peak by half the angle between two squared; f32 rounds the share.
             assert!(all.iter().all(|gain| (gain / expected - 1.0).abs() < 1e-3), "{frequency}: {all:?} {expected}");
@@ -282,6 +356,6 @@ mod tests {
     fn no_filter_takes_no_room() {
         assert_eq!(size_of::<SpeedLoop>(), 12);
         assert_eq!(size_of::<SpeedLoop<SetpointLag<f32>>>(), 16);
-        assert_eq!(size_of::<SpeedLoopConfig<f32, DampingLagConfig<f32>>>(), size_of::<SpeedLoopConfig<f32>>() + 4);
+        assert_eq!(size_of::<SpeedLoopConfig<f32, LagConfig<f32>>>(), size_of::<SpeedLoopConfig<f32>>() + 4);
     }
 }

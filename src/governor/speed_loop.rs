@@ -8,7 +8,7 @@
 //! `I' = I + k_i T (omega* - omega_m)`. The integral follows the limited torque with its own time constant (automatic
 //! reset [Åström and Hägglund 1995, PID Controllers, section 3.5]). With r below 1 it stays within the limit and the
 //! largest damping, whatever gains, setpoint and estimates: it cannot wind up. The setpoint moves by at most the ramp's
-//! step a tick. Filters of the ramped setpoint and of the twist rate are optional: [`LoopFilter`].
+//! step a tick. Filters of the ramped setpoint, of the speed and of the twist rate are optional: [`LoopFilter`].
 
 use super::{Governor, LoopFilter};
 use crate::number::{Number, Part};
@@ -81,7 +81,8 @@ impl<N: Number, F: LoopFilter<N>> Governor<N> for SpeedLoop<F, N> {
         let step = (self.setpoint - self.ramped).limited(config.ramp);
         self.ramped = self.ramped + step;
         let setpoint = self.filter.setpoint(&mut carry, config.reset, step, self.ramped);
-        let error = setpoint - estimate.motor_speed;
+        let speed = self.filter.speed(&mut carry, &config.filter, estimate.motor_speed);
+        let error = setpoint - speed;
         let twist_rate = estimate.motor_speed - estimate.load_speed;
         let twist_rate = self.filter.twist_rate(&mut carry, &config.filter, twist_rate);
         let standing = self.integral + twist_rate.gained::<1>(config.damping);
@@ -92,7 +93,8 @@ impl<N: Number, F: LoopFilter<N>> Governor<N> for SpeedLoop<F, N> {
 
     /// The integral takes over the difference of the torques, up to twice the limit.
     fn switch(&mut self, from: &Self::Config, to: &Self::Config, estimate: &Estimate<N>) {
-        let error = self.filter.filtered_setpoint(self.ramped) - estimate.motor_speed;
+        let speed = self.filter.filtered_speed(estimate.motor_speed);
+        let error = self.filter.filtered_setpoint(self.ramped) - speed;
         let twist_rate = self.filter.filtered_twist_rate(estimate.motor_speed - estimate.load_speed);
         // The proportional part of saturation counts as four limits, which every number holds.
         let twice = to.torque_limit + to.torque_limit;
@@ -110,6 +112,6 @@ impl<N: Number, F: LoopFilter<N>> Governor<N> for SpeedLoop<F, N> {
         self.ramped = estimate.motor_speed;
         self.setpoint = N::ZERO;
         self.integral = torque;
-        self.filter = F::default();
+        self.filter.start(estimate.motor_speed);
     }
 }

@@ -1,6 +1,6 @@
 //! Interpolation of the constants of observers and governors, field by field.
 
-use crate::governor::{DampingLagConfig, SpeedLoopConfig};
+use crate::governor::{LagConfig, SpeedLoopConfig};
 use crate::number::{Interpolate, Magnitude, Number, Weight};
 use crate::observer::{GearFriction, GearedConfig, RigidConfig, SemiImplicitConfig, Stiction, TwoMassConfig};
 
@@ -20,7 +20,7 @@ macro_rules! fields {
 fields! {
     RigidConfig { acceleration, turn, correction, angle_correction, speed, load_share }
     SemiImplicitConfig { motor, load, shaft, turn, correction, angle_correction, speed }
-    DampingLagConfig { share }
+    LagConfig { share }
 }
 
 impl<N, F> Interpolate for SpeedLoopConfig<N, F>

@@ -5,7 +5,7 @@ use super::convert::get;
 use super::governor_parts::{GAIN, LEAST_LIMIT, holds, law, within_base};
 use super::{Bases, Error};
 use crate::design::SpeedLoopDesign;
-use crate::governor::{DampingLagConfig, SpeedLoopConfig};
+use crate::governor::{LagConfig, SpeedLoopConfig};
 use crate::math::exp_m1;
 
 const TORQUE: &str = "the torque limit of the speed loop must be positive and finite, and at most the base of the \
@@ -55,11 +55,11 @@ constants! {
 constants! {
     /// [`Error::Value`] for a lag (s) that is not positive and finite, [`Error::Coefficient`] in fixed point for one
     /// of 1.44 ticks of `period` (s) or less.
-    impl[] DampingLagConfig[], new, try_new(lag: f64, period: f64), |_format| {
+    impl[] LagConfig[], new, try_new(lag: f64, period: f64), |_format| {
         let share = -exp_m1(-period / lag);
         if !(lag > 0.0 && lag.is_finite() && share > 0.0) {
             return Err(Error::Value(LAG));
         }
-        Ok(DampingLagConfig { share: get!(To::coefficient(share, LAG)) })
+        Ok(LagConfig { share: get!(To::coefficient(share, LAG)) })
     }
 }

@@ -8,3 +8,4 @@ mod observer;
 mod predicted;
 mod speed_loop;
 mod step;
+mod undescribed;

@@ -3,6 +3,7 @@
 use driveline::configure::{Machine, Rating};
 use driveline::design::{
     Disturbance, Encoder, LoadStep, SpeedLoopDesign, SpeedLoopTuning, Spread, StepChoice, Tolerance, TwoMassDesign,
+    Undescribed,
 };
 use driveline::machine::{
     Chain, Damping, Diameter, Efficiency, Falls, Inertia, Length, LinearDamping, Mass, Ratio, Speed, Stiffness, Torque,
@@ -114,6 +115,8 @@ impl Machine for Crane {
         within: 100.0,
     };
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.5, damping: 1.0, shaft_damping: 0.25 };
+    /// The drive shaft is that of the plant: it is far stiffer than this active damping would excite.
+    const TOLERANCE: Tolerance = Tolerance { undescribed: Undescribed::NONE, ..Tolerance::USUAL };
     const RAMP: f64 = Self::RATING.speed.0 / 6.0;
     const LOAD_STEP: LoadStep = LoadStep { torque: 0.2 * Self::RATING.torque.0, rise: 0.0 };
     const SCREENING: Screening =
@@ -202,6 +205,7 @@ impl Machine for Spindle {
     const DISTURBANCE: Disturbance =
         Disturbance { load_torque_step: 1.5 * Self::RATING.torque.0, ..Self::RATING.disturbance() };
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.02, damping: 1.0, shaft_damping: 0.006 };
+    const TOLERANCE: Tolerance = Tolerance { damping: Spread::between(0.3, 2.0), ..Tolerance::USUAL };
     const RAMP: f64 = 2.0 * Self::RATING.speed.0;
     /// The tool meets the work within 3 ms.
     const LOAD_STEP: LoadStep = LoadStep { torque: 0.66 * Self::RATING.torque.0, rise: 0.003 };

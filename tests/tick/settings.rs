@@ -248,6 +248,7 @@ fn speed_loop(proportional: f64, integral: f64, damping: f64) -> SpeedLoopDesign
         integral,
         damping,
         damping_lag: 0.0,
+        speed_lag: 0.0,
         bandwidth: 0.0,
         shaft_frequency: 0.0,
         spectral_radius: 0.0,

@@ -2,8 +2,8 @@
 
 use driveline::drive::{Config, Drive, Limits};
 use driveline::governor::{
-    ActiveDamping, ActiveDampingConfig, CycleAverage, DampingLag, DampingLagConfig, Droop, DroopConfig, FeedForward,
-    FeedForwardConfig, Gains, Governor, SetpointLag, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig,
+    ActiveDamping, ActiveDampingConfig, CycleAverage, DampingLag, Droop, DroopConfig, FeedForward, FeedForwardConfig,
+    Gains, Governor, LagConfig, SetpointLag, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig,
     SymmetricLimit, SymmetricLimitConfig,
 };
 use driveline::number::{Coefficient, Fixed, Number, StateOf};
@@ -55,7 +55,7 @@ fn a_switch_of_a_speed_loop_with_lags_is_bumpless() {
         reset: 0.0,
         torque_limit: 1000.0,
         ramp: 4.0,
-        filter: ((), DampingLagConfig { share: 1.0 }),
+        filter: ((), LagConfig { share: 1.0 }),
     };
     let (from, to) = (config(2.0, -3.0), config(5.0, 1.0));
     let at = |speed| Estimate { motor_speed: speed, shaft_torque: 0.0, load_speed: speed - 2.0, load_torque: 0.0 };

@@ -21,7 +21,7 @@
 use driveline::configure::{HasBacklash, Machine, Rating};
 use driveline::design::{
     BacklashTakeUpDesign, BacklashTakeUpTuning, BacklashTuning, Disturbance, Encoder, RigidDesign, SpeedLoopDesign,
-    SpeedLoopTuning,
+    SpeedLoopTuning, Spread, Tolerance,
 };
 use driveline::governor::{SpeedGovernor, SymmetricLimit};
 use driveline::machine::{
@@ -62,6 +62,8 @@ impl Machine for SkipWinch {
         Disturbance { within: 1.0, ..Self::RATING.disturbance() },
     );
     const TUNING: SpeedLoopTuning = SpeedLoopTuning::USUAL;
+    /// The observer that takes the rope for rigid needs three tenths of the rope's damping.
+    const TOLERANCE: Tolerance = Tolerance { damping: Spread::between(0.3, 2.0), ..Tolerance::USUAL };
     const RAMP: f64 = Self::RATING.speed.0 / 4.0;
     const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit.0, 1.34 * Self::RATING.speed.0);
     /// In 40 ms the motor turns by less than half a turn.
@@ -95,6 +97,7 @@ impl Machine for SkipOnRope {
     const BACKLASH_TUNING: BacklashTuning = BacklashTuning { wander: 0.01, ..BacklashTuning::USUAL };
     /// The design's proportional and integral gains, without its damping.
     const SPEED_LOOP: SpeedLoopDesign = SpeedLoopDesign { damping: 0.0, ..SkipWinch::SPEED_LOOP };
+    const TOLERANCE: Tolerance = SkipWinch::TOLERANCE;
     /// The setpoint of the emergency stop: from rated speed in an eighth of a second, which is more than motor and
     /// brake can.
     const RAMP: f64 = 8.0 * Self::RATING.speed.0;

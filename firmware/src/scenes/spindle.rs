@@ -7,7 +7,7 @@
 //! 1024 times.
 
 use driveline::configure::{Machine, Rating};
-use driveline::design::{Disturbance, Encoder, SpeedLoopTuning};
+use driveline::design::{Disturbance, Encoder, SpeedLoopTuning, Spread, Tolerance};
 use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Section, ShearModulus, Speed, Torque, stepped};
 use driveline::observer::{self, TwoMassObserver};
 use driveline::settings::{Bases, Screening};
@@ -41,6 +41,8 @@ impl Machine for Spindle {
     /// A fiftieth of the antiresonance, 14 Hz, and next to nothing of the twist rate: a torque that is a tick late and
     /// through a current control of 500 Hz is 130 degrees late at 800 Hz.
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.02, damping: 1.0, shaft_damping: 0.006 };
+    /// With less than three tenths of its 1 % of damping the shaft would need a lag of the speed.
+    const TOLERANCE: Tolerance = Tolerance { damping: Spread::between(0.3, 2.0), ..Tolerance::USUAL };
     /// Rated speed in half a second.
     const RAMP: f64 = 2.0 * Self::RATING.speed.0;
     /// That of the torque is forty times the largest, for the gains: a radian of innovation is much with such an

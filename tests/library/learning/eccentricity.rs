@@ -2,7 +2,7 @@
 
 use crate::hoist::Hoist;
 use driveline::configure::{Machine, Rating, Units};
-use driveline::design::{Disturbance, Encoder, SpeedLoopTuning, Tolerance};
+use driveline::design::{Disturbance, Encoder, SpeedLoopTuning, Spread, Tolerance};
 use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::SpeedLoop;
 use driveline::learning::{EccentricityConfig, EccentricityObserver, Finding};
@@ -28,7 +28,8 @@ impl Machine for M {
     const DISTURBANCE: Disturbance =
         Disturbance { load_torque_step: 300.0, within: 50.0, ..Self::RATING.disturbance() };
     const TUNING: SpeedLoopTuning = Hoist::<10_000>::TUNING;
-    const TOLERANCE: Tolerance = Hoist::<10_000>::TOLERANCE;
+    /// This observer follows the load too slowly for a tenth of the rope's damping.
+    const TOLERANCE: Tolerance = Tolerance { damping: Spread::NONE, ..Hoist::<10_000>::TOLERANCE };
     const RAMP: f64 = Hoist::<10_000>::RAMP;
     const BASES: Bases = Hoist::<10_000>::BASES;
     const SCREENING: Screening = Hoist::<10_000>::SCREENING;

@@ -400,6 +400,7 @@ impl MachineFile {
             offset: most(Factor::TorqueOffset),
             efficiency: most(Factor::Efficiency),
             gap: spread(Factor::Gap),
+            ..Tolerance::USUAL
         }
     }
 

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 
 use driveline::configure::Machine;
 use driveline::design::{Actuator, ClosedLoop, Error, Plant, Rate, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign};
-use driveline::governor::{DampingLag, DampingLagConfig, Governor, SpeedLoop, SpeedLoopConfig};
+use driveline::governor::{DampingLag, Governor, LagConfig, SpeedLag, SpeedLoop, SpeedLoopConfig};
 use driveline::machine::{Chain, TwoMass};
 use driveline::observer::{self, Observer, RigidConfig, TwoMassConfig};
 use driveline::sample::Estimate;
@@ -180,13 +180,15 @@ impl Scene {
     }
 }
 
-fn scenes() -> [Scene; 6] {
+fn scenes() -> [Scene; 7] {
     let damped = BloomingMill::TWO_MASS.speed_loop(BloomingMill::RATE, BloomingMill::TUNING);
+    let rolled_off = Spindle::SPEED_LOOP.with_speed_lag(0.2 / Spindle::SPEED_LOOP.bandwidth);
     [
         Scene::of::<Hoist<1_000>>("hoist at 1 kHz", 20.0),
         Scene::of::<Hoist<10_000>>("hoist at 10 kHz", 6.0),
         Scene::of::<StripMill>("strip mill", 4.0),
         Scene::of::<Spindle>("spindle", 0.5),
+        Scene("spindle, speed lagged", Spindle::CHAIN, Spindle::OBSERVER, rolled_off, 0.5),
         Scene("blooming mill, no gap", BloomingMill::CHAIN, BloomingMill::OBSERVER, damped, 6.0),
         Scene::of::<CraneTravel>("crane travel", 300.0),
     ]
@@ -206,8 +208,12 @@ fn settles<O: Observer<f64>>(scene: &Scene, known: &O::Config, gain: f64, late: 
     let law = SpeedLoopConfig::<f64>::new(speed_loop, SpeedLoopSettings { torque_limit: 1e30, ramp: 1e30 }, Bases::SI);
     let mut eye = O::at_rest(known, 0, 0.0);
     let mut command: Box<dyn FnMut(&Estimate<f64>) -> f64> = if speed_loop.damping_lag > 0.0 {
-        let law = law.with_filter(DampingLagConfig::<f64>::new(speed_loop.damping_lag, *period, Bases::SI));
+        let law = law.with_filter(LagConfig::<f64>::new(speed_loop.damping_lag, *period, Bases::SI));
         let mut governor = SpeedLoop::<DampingLag<f64>, f64>::default();
+        Box::new(move |estimate| governor.command(&law, estimate))
+    } else if speed_loop.speed_lag > 0.0 {
+        let law = law.with_filter(LagConfig::<f64>::new(speed_loop.speed_lag, *period, Bases::SI));
+        let mut governor = SpeedLoop::<SpeedLag<f64>, f64>::default();
         Box::new(move |estimate| governor.command(&law, estimate))
     } else {
         let mut governor = SpeedLoop::<(), f64>::default();

@@ -37,6 +37,7 @@ impl<M: Machine> Machine for Plain<M> {
             integral: w * w * inertia,
             damping: 0.0,
             damping_lag: 0.0,
+            speed_lag: 0.0,
             ..M::SPEED_LOOP
         }
     };
