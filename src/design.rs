@@ -56,7 +56,7 @@ pub use approximate::{Fidelity, SemiImplicitStep, StepChoice};
 pub use backlash::{BacklashDesign, BacklashTuning};
 pub use backlash_takeup::{BacklashTakeUpDesign, BacklashTakeUpTuning};
 pub use barred::{BarredSpeeds, USUAL_MARGIN};
-pub use closed_loop::{ClosedLoop, Ranges};
+pub use closed_loop::{ClosedLoop, Controller, Ranges};
 pub use cranked::CrankedDesign;
 pub use error::Error;
 pub use estimate_error::EstimateError;

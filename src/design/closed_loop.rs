@@ -14,7 +14,7 @@
 use super::margins::{Margins, OpenLoop};
 use super::plant::{Plant, Twist};
 use super::polynomial::Polynomial;
-use super::{Actuator, Error, ExactStep, PlacedObserver, RigidDesign, SpeedLoopDesign, TwoMassDesign};
+use super::{Actuator, Error, ExactStep, LoopObserver, PlacedObserver, RigidDesign, SpeedLoopDesign, TwoMassDesign};
 use crate::machine::TwoMass;
 use crate::math::{exp_m1, sin_cos, sqrt};
 
@@ -84,6 +84,87 @@ impl Observer {
             load_torque,
         }
     }
+
+    /// Denominator, and what it is divided into by torque and by motor angle, of the torque that the governor gives:
+    /// `u = -(Q tau + P theta_m)/D`.
+    const fn controller(&self, speed_loop: &SpeedLoopDesign) -> [Polynomial; 3] {
+        let SpeedLoopDesign { proportional, integral, damping: slip, damping_lag, speed_lag, .. } = *speed_loop;
+        let (t, [per_total, per_motor, per_load]) = (self.period, self.inverse);
+        let n = &self.step;
+        let square = &self.twist.denominator;
+        // Of the mean speed, and of the twist rate, times delta: the governor's law.
+        let (damps, lags_damping) = first_order(damping_lag, t);
+        let (follows, lags_speed) = first_order(speed_lag, t);
+        let law = Polynomial::new([integral * t, proportional + integral * t]).times(&follows).times(&lags_damping);
+        let law_of_slip = law.scaled(self.share).plus(slip, &damps.times(&lags_speed).raised(1));
+
+        // Effect of an innovation: mean angle times delta^3; twist and twist rate without the load torque's part; twist
+        // rate.
+        let glide = t * t * self.load_torque * per_total;
+        let mean = Polynomial::new([-glide, t * self.mean_speed - 0.5 * glide, self.mean_angle]);
+        let twisted = Polynomial::new([n.n12 * self.slip - n.n22 * self.twist_gain, self.twist_gain]);
+        let slipped = Polynomial::new([
+            n.g2 * self.load_torque * per_load + n.n21 * self.twist_gain - n.n11 * self.slip,
+            self.slip,
+        ]);
+        // The observer's poles: (1 - K_1) delta^3 det + z N, N its angle's answer to an innovation.
+        let answer = mean
+            .times(square)
+            .plus(self.share * self.load_torque * per_load, &self.twist.numerator.raised(2))
+            .plus(self.share, &twisted.raised(3));
+        let poles = square.raised(3).scaled(1.0 - self.angle).plus(1.0, &Polynomial::Z.times(&answer));
+
+        // The governor's answer to torque and to innovation.
+        let of_torque = law.times(square).scaled(t * per_total).plus(n.g2 * per_motor, &law_of_slip.raised(2));
+        let of_innovation = law
+            .times(&Polynomial::new([-t * per_total * self.load_torque, self.mean_speed]))
+            .times(square)
+            .plus(1.0, &law_of_slip.times(&slipped).raised(2));
+
+        // What remains of the products of both, their common divisor delta^2 det taken out by hand.
+        let joint =
+            Polynomial::new([t * self.load_torque * per_total * (per_load + per_motor), -self.mean_speed * per_motor]);
+        let by_twist = twisted.raised(1).scaled(t * per_total).plus(1.0, &self.twist.numerator.times(&joint));
+        let by_slip =
+            mean.scaled(n.g2 * per_motor).plus(-t * t * per_total, &Polynomial::new([1.0, 0.5]).times(&slipped));
+        let both = law
+            .times(square)
+            .scaled(t * per_total * (self.mean_angle - 0.5 * t * self.mean_speed))
+            .plus(self.share, &law.times(&by_twist))
+            .plus(1.0, &law_of_slip.times(&by_slip))
+            .plus(self.share * (n.g2 * self.twist_gain - n.g1 * self.slip) * per_motor, &law_of_slip.raised(2));
+        let known = of_torque.raised(1).scaled(1.0 - self.angle).plus(1.0, &Polynomial::Z.times(&both));
+        [lags_damping.times(&lags_speed).times(&poles), known, Polynomial::Z.times(&of_innovation)]
+    }
+}
+
+/// Observer and speed loop between the motor's angle and the torque: `u = -(Q tau + P theta_m)/D`, polynomials in
+/// `z - 1`, the constant first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Controller {
+    /// D: the poles of the observer and of the lags on damping and speed.
+    pub denominator: [f64; 8],
+    /// Q, by the torque of the ended tick.
+    pub of_torque: [f64; 8],
+    /// P, by the motor's angle (N m/rad).
+    pub of_angle: [f64; 8],
+}
+
+impl LoopObserver<'_> {
+    /// This observer with a speed loop, apart from actuator and machine.
+    #[must_use]
+    pub const fn controller(&self, speed_loop: &SpeedLoopDesign) -> Controller {
+        let observer = match self {
+            Self::TwoMass(TwoMassDesign { machine, step, gains, period, .. })
+            | Self::Placed(PlacedObserver { machine, step, gains, period, .. }) => {
+                Observer::of_two_masses(machine, step, *gains, *period)
+            }
+            Self::Rigid(design) => Observer::of_one_mass(design),
+        };
+        let [denominator, of_torque, of_angle] = observer.controller(speed_loop);
+        Controller { denominator: denominator.first(), of_torque: of_torque.first(), of_angle: of_angle.first() }
+    }
 }
 
 impl ClosedLoop {
@@ -126,63 +207,18 @@ impl ClosedLoop {
     }
 
     const fn close(o: &Observer, speed_loop: &SpeedLoopDesign, actuator: Actuator) -> Result<Self, Error> {
-        let SpeedLoopDesign { proportional, integral, damping: slip, damping_lag, speed_lag, .. } = *speed_loop;
-        let t = o.period;
+        let (t, Actuator { delay, lag }) = (o.period, actuator);
         if (t - speed_loop.period).abs() > 1e-9 * t {
             return Err(Error::Period);
         }
-        let Actuator { delay, lag } = actuator;
         // A millionth of a tick for rounding.
         let ticks = delay / t - 1e-6;
         if !(delay >= 0.0 && ticks <= Self::MAX_DELAY_TICKS && lag >= 0.0 && lag.is_finite()) {
             return Err(Error::Actuator);
         }
-        let [per_total, per_motor, per_load] = o.inverse;
-        let n = &o.step;
-        let square = &o.twist.denominator;
-        // Of the mean speed, and of the twist rate, times delta: the governor's law.
-        let (damps, lags_damping) = first_order(damping_lag, t);
-        let (follows, lags_speed) = first_order(speed_lag, t);
-        let law = Polynomial::new([integral * t, proportional + integral * t]).times(&follows).times(&lags_damping);
-        let law_of_slip = law.scaled(o.share).plus(slip, &damps.times(&lags_speed).raised(1));
-
-        // Effect of an innovation: mean angle times delta^3; twist and twist rate without the load torque's part; twist
-        // rate.
-        let glide = t * t * o.load_torque * per_total;
-        let mean = Polynomial::new([-glide, t * o.mean_speed - 0.5 * glide, o.mean_angle]);
-        let twisted = Polynomial::new([n.n12 * o.slip - n.n22 * o.twist_gain, o.twist_gain]);
-        let slipped =
-            Polynomial::new([n.g2 * o.load_torque * per_load + n.n21 * o.twist_gain - n.n11 * o.slip, o.slip]);
-        // The observer's poles: (1 - K_1) delta^3 det + z N, N its angle's answer to an innovation.
-        let answer = mean
-            .times(square)
-            .plus(o.share * o.load_torque * per_load, &o.twist.numerator.raised(2))
-            .plus(o.share, &twisted.raised(3));
-        let poles = square.raised(3).scaled(1.0 - o.angle).plus(1.0, &Polynomial::Z.times(&answer));
-
-        // The governor's answer to torque and to innovation.
-        let of_torque = law.times(square).scaled(t * per_total).plus(n.g2 * per_motor, &law_of_slip.raised(2));
-        let of_innovation = law
-            .times(&Polynomial::new([-t * per_total * o.load_torque, o.mean_speed]))
-            .times(square)
-            .plus(1.0, &law_of_slip.times(&slipped).raised(2));
-
-        // What remains of the products of both, their common divisor delta^2 det taken out by hand.
-        let joint =
-            Polynomial::new([t * o.load_torque * per_total * (per_load + per_motor), -o.mean_speed * per_motor]);
-        let by_twist = twisted.raised(1).scaled(t * per_total).plus(1.0, &o.twist.numerator.times(&joint));
-        let by_slip =
-            mean.scaled(n.g2 * per_motor).plus(-t * t * per_total, &Polynomial::new([1.0, 0.5]).times(&slipped));
-        let both = law
-            .times(square)
-            .scaled(t * per_total * (o.mean_angle - 0.5 * t * o.mean_speed))
-            .plus(o.share, &law.times(&by_twist))
-            .plus(1.0, &law_of_slip.times(&by_slip))
-            .plus(o.share * (n.g2 * o.twist_gain - n.g1 * o.slip) * per_motor, &law_of_slip.raised(2));
-        let known = of_torque.raised(1).scaled(1.0 - o.angle).plus(1.0, &Polynomial::Z.times(&both));
-
+        let [poles, known, of_innovation] = o.controller(speed_loop);
         let (acts, lags) = lagged(lag, t);
-        let mut late = lags.times(&lags_damping).times(&lags_speed).times(&poles);
+        let mut late = lags.times(&poles);
         let mut tick = 0.0;
         while tick < ticks {
             late = late.times(&Polynomial::Z);
@@ -190,8 +226,8 @@ impl ClosedLoop {
         }
         Ok(Self {
             period: t,
-            slowest: integral / proportional,
-            numerator: acts.times(&Polynomial::Z).times(&of_innovation),
+            slowest: speed_loop.integral / speed_loop.proportional,
+            numerator: acts.times(&of_innovation),
             denominator: late.plus(1.0, &acts.times(&known)),
         })
     }

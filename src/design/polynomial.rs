@@ -93,6 +93,17 @@ impl Polynomial {
         value
     }
 
+    /// The first coefficients.
+    pub(super) const fn first<const N: usize>(&self) -> [f64; N] {
+        let mut first = [0.0; N];
+        let mut k = 0;
+        while k < N && k < CAPACITY {
+            first[k] = self.coefficient[k];
+            k += 1;
+        }
+        first
+    }
+
     /// The degree without leading zeros.
     pub(super) const fn order(&self) -> usize {
         let mut n = if self.degree < CAPACITY { self.degree } else { CAPACITY - 1 };
