@@ -4,6 +4,7 @@ mod balancing;
 mod check;
 mod longest_path;
 mod peers;
+mod proof;
 mod report;
 mod run;
 
@@ -28,6 +29,7 @@ enum Command {
     Check(check::Check),
     LongestPath(longest_path::LongestPath),
     Peers(peers::Peers),
+    Proof(proof::Proof),
     Report(report::Report),
     Run(run::Run),
     #[command(flatten)]
@@ -39,6 +41,8 @@ impl CommandLine for Lab {
         match &self.command {
             Command::Check(command) => command.json,
             Command::LongestPath(command) => command.json,
+            Command::Peers(command) => command.json,
+            Command::Proof(command) => command.json,
             Command::Report(command) => command.json,
             Command::Run(command) => command.json,
             Command::Driveline(command) => command.json(),
@@ -49,6 +53,8 @@ impl CommandLine for Lab {
         match &self.command {
             Command::Check(command) => command.execute(),
             Command::LongestPath(command) => command.execute(),
+            Command::Peers(command) => command.execute(),
+            Command::Proof(command) => command.execute(),
             Command::Report(command) => command.execute(),
             Command::Run(command) => command.execute(),
             Command::Driveline(cargo_driveline::cli::Command::Campaign(command)) => command.execute(SCENES),

@@ -13,6 +13,7 @@ pub mod commissioning;
 pub mod drivetrains;
 pub mod generator;
 pub mod peers;
+pub mod proof;
 mod stamp;
 pub mod survey;
 pub mod sweep;

@@ -7,4 +7,5 @@ mod fuzz;
 mod governor;
 mod hal;
 mod logged;
+mod proof;
 mod tick;
