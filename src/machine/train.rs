@@ -372,12 +372,13 @@ impl Train {
     }
 }
 
-/// Householder's reflections: rows above the diagonal of the first `columns` columns, nothing below.
+/// Householder's reflections: rows above the diagonal of the first `columns` columns, nothing below. The first rows have
+/// nothing below their diagonal to begin with.
 const fn triangulate(matrix: &mut [[f64; SHAFTS]; TRAIN_SHAFTS], rows: usize, columns: usize) {
     let mut c = 0;
     while c < columns {
         let mut below = 0.0;
-        let mut r = c + 1;
+        let mut r = columns;
         while r < rows {
             below += matrix[r][c] * matrix[r][c];
             r += 1;
@@ -391,14 +392,14 @@ const fn triangulate(matrix: &mut [[f64; SHAFTS]; TRAIN_SHAFTS], rows: usize, co
             let mut k = c + 1;
             while k < columns {
                 let mut product = lead * matrix[c][k];
-                let mut r = c + 1;
+                let mut r = columns;
                 while r < rows {
                     product += matrix[r][c] * matrix[r][k];
                     r += 1;
                 }
                 product *= norm;
                 matrix[c][k] -= product * lead;
-                let mut r = c + 1;
+                let mut r = columns;
                 while r < rows {
                     matrix[r][k] -= product * matrix[r][c];
                     r += 1;
@@ -406,7 +407,7 @@ const fn triangulate(matrix: &mut [[f64; SHAFTS]; TRAIN_SHAFTS], rows: usize, co
                 k += 1;
             }
             matrix[c][c] = if top < 0.0 { size } else { -size };
-            let mut r = c + 1;
+            let mut r = columns;
             while r < rows {
                 matrix[r][c] = 0.0;
                 r += 1;

@@ -165,6 +165,21 @@ fn loops_against_a_dense_solution() {
     close(two.antiresonance(), modes.antiresonances()[0], 1e-13);
 }
 
+/// Equal masses with a shaft between each two: all vibrations but the turn have `n k/J`.
+#[test]
+fn masses_joined_each_with_each() {
+    let joined = |train: Train, from, to| train.close(from, to, ONE, Stiffness(2.0e4), Damping(0.0));
+    let three = joined(Train::of(chain(&[0.4; 3], &[2.0e4; 2])), 0, 2);
+    let four = Train::of(chain(&[0.4; 4], &[2.0e4; 3]));
+    let four = joined(joined(joined(four, 0, 3), 0, 2), 1, 3);
+    for (train, count) in [(three, 3_u8), (four, 4)] {
+        let modes = train.modes();
+        assert_eq!(modes.resonances().len(), usize::from(count) - 1);
+        let expected = (f64::from(count) * 2.0e4 / 0.4).sqrt();
+        modes.resonances().iter().for_each(|mode| close(mode.frequency, expected, 1e-13));
+    }
+}
+
 /// A second shaft beside the first is a loop of two: stiffnesses add up.
 #[test]
 fn a_shaft_beside_another_adds_its_stiffness() {
