@@ -281,4 +281,25 @@ mod tests {
         }
         assert_eq!(measured(phasors.reading(&config, 0)), Ok((3, 16.0)));
     }
+
+    /// A rotor that passes its zero backwards twice has no reading, and says how often. A new one knows nothing of that,
+    /// nor of clipped and missing samples.
+    #[test]
+    fn a_new_reading_forgets_the_old_one() {
+        let (mut phasors, config) = turned::<2>(17);
+        for tick in [15_u32, 17, 15] {
+            phasors.measure(&config, tick << 28, &[2.0]);
+        }
+        phasors.missed(Faults::NONE);
+        assert_eq!(phasors.reading(&config, 0), Err(ReadingFault::Backwards { times: 2 }));
+        assert_eq!((phasors.blocks(), phasors.ticks()), (0, 21));
+        phasors.begin();
+        assert_eq!(phasors.ticks(), 0);
+        assert_eq!(phasors.reading(&config, 0), Err(ReadingFault::Incomplete { turns: 0, of: 3 }));
+        for tick in 16..=16 + 48_u32 {
+            phasors.measure(&config, tick.wrapping_shl(28), &[0.5]);
+        }
+        let reading = phasors.reading(&config, 0).map(|reading| (reading.turns, reading.ticks));
+        assert_eq!(reading, Ok((3, 16.0)));
+    }
 }

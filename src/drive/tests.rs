@@ -2,8 +2,10 @@
 
 use super::{Config, Drive, Limits, NONE_YET, ONE};
 use crate::fault::Faults;
+use crate::fluctuation::Fluctuation;
+use crate::number::Part;
 use crate::observer::{RigidConfig, RigidObserver};
-use crate::sample::Sample;
+use crate::sample::{Estimate, Sample};
 
 /// 2^32 per turn and ticks as units of angle and time, an inertia of one: no encoder, gains of a third.
 const CONFIG: Config<f64, RigidConfig<f64>> = Config {
@@ -70,5 +72,33 @@ fn without_a_governor_the_last_plausible_torque_stands_in() {
     for torque in [f64::NAN, f64::INFINITY, -10.1] {
         let command = drive.tick(&CONFIG, &Sample { angle: 0, torque, setpoint: 0.0 });
         assert_eq!((command.faults, drive.commanded), (Faults::TORQUE, 1.0));
+    }
+}
+
+/// The last torque that a measurement was given.
+#[derive(Clone, Copy, Debug, Default)]
+struct Given(f64);
+
+impl Part<f64> for Given {
+    type State = Self;
+}
+
+impl Fluctuation<f64> for Given {
+    type Config = ();
+
+    fn measure(&mut self, _config: &(), _angle: u32, torque: f64, _estimate: &Estimate<f64>) {
+        self.0 = torque;
+    }
+
+    fn disturb(&mut self) {}
+}
+
+/// A measurement takes the torque that the observer took, never the sample's where that is implausible.
+#[test]
+fn a_measurement_is_given_no_implausible_torque() {
+    let mut drive = Drive::<f64, RigidObserver, (), Given>::new(&CONFIG, 0);
+    for (torque, given) in [(2.0, 2.0), (10.0, 10.0), (10.1, 10.0), (f64::NAN, 10.0), (-3.0, -3.0), (-1e9, -3.0)] {
+        drive.tick(&CONFIG, &Sample { angle: 0, torque, setpoint: 0.0 });
+        assert_eq!(drive.fluctuation().0, given, "{torque}");
     }
 }

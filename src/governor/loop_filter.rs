@@ -351,6 +351,30 @@ mod tests {
         }
     }
 
+    /// The torque of a damping on a constant twist rate is that of the lag, `k (1 - (1 - c)^n)`, and after a change of
+    /// gains it goes on from there: the integral takes over what the lagged twist rate makes of the difference.
+    #[test]
+    fn a_speed_loop_damps_by_the_lagged_twist_rate() {
+        let (k, share) = (3.0, 0.25_f64);
+        let of = |damping: f64| SpeedLoopConfig {
+            proportional: 0.0,
+            damping: -damping,
+            reset: 0.0,
+            ..config(1.0, 1.0).with_filter(DampingLagConfig { share })
+        };
+        let slips = Estimate { motor_speed: 1.0, ..Estimate::default() };
+        let mut governor = SpeedLoop::<DampingLag<f64>, f64>::default();
+        let lagged = |ticks: i32| 1.0 - (1.0 - share).powi(ticks);
+        for tick in 1..6 {
+            let torque = governor.command(&of(k), &slips);
+            assert!((torque + k * lagged(tick)).abs() < 1e-15, "{tick}: {torque}");
+        }
+        governor.switch(&of(k), &of(2.0 * k), &slips);
+        let torque = governor.command(&of(2.0 * k), &slips);
+        // some roundings
+        assert!((torque - (k * lagged(5) - 2.0 * k * lagged(6))).abs() < 1e-14, "{torque}");
+    }
+
     /// No filter takes no room.
     #[test]
     fn no_filter_takes_no_room() {

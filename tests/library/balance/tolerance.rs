@@ -47,8 +47,10 @@ fn permissible_unbalance_and_its_split() {
     assert!((whole - 2.5e-4).abs() < 1e-18);
     let shares = |from_a| rotor.at_bearings(from_a, 1.0).unwrap().map(|u| (u / whole * 1e3).round() / 1e3);
     assert_eq!(shares(0.1), [0.7, 0.3]);
-    assert_eq!(shares(1.2), [0.3, 1.2]);
-    assert_eq!(shares(1.5), [0.5, 1.3]);
+    // beyond B, beyond A, above a bearing
+    assert_eq!((shares(1.2), shares(1.5)), ([0.3, 1.2], [0.5, 1.3]));
+    assert_eq!((shares(-0.2), shares(-0.5)), ([1.2, 0.3], [1.3, 0.5]));
+    assert_eq!((shares(0.0), shares(1.0)), ([0.7, 0.3], [0.3, 0.7]));
     assert_eq!(rotor.judge(1e3).unwrap().fulfils, None);
     assert_eq!(Tolerance { mass: 0.0, ..rotor }.permissible(), Err(Error::Setting { index: 1 }));
     assert_eq!(rotor.at_bearings(0.3, 0.0), Err(Error::Setting { index: 3 }));
