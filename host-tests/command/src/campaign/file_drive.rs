@@ -120,7 +120,10 @@ macro_rules! number {
             let (Designs { two, two_masses, rigid, speed_loop, ramp, .. }, bases) = (self.designs, self.bases);
             let (rate, encoder, _) = self.machine.tuning();
             let rating = self.machine.rating();
-            let settings = SpeedLoopSettings { torque_limit: rating.torque_limit.0, ramp: *ramp };
+            // in the words of a project, whose sum may differ in the last digit
+            let is_chain = self.machine.dampers.is_empty() && self.machine.train.is_none();
+            let ramp = if is_chain { rating.ramp(self.machine.chain.total_inertia()) } else { *ramp };
+            let settings = SpeedLoopSettings { torque_limit: rating.torque_limit.0, ramp };
             let of = (
                 Limits::<$number>::try_new(&rating.screening(encoder, rate), bases)?,
                 SpeedLoopConfig::<$number>::try_new(speed_loop, settings, bases)?,
