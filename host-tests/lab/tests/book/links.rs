@@ -51,7 +51,7 @@ fn every_path_that_a_page_names_is_there() {
 #[test]
 fn the_table_of_contents_is_complete() {
     let mut listed = Page::read("doc/SUMMARY.md").links;
-    let names = |folder: &str| {
+    let names = |folder: &'static str| {
         let entries = fs::read_dir(root().join("doc").join(folder)).unwrap();
         entries.map(move |entry| format!("{folder}{}", entry.unwrap().file_name().to_str().unwrap()))
     };
