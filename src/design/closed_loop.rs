@@ -144,11 +144,11 @@ impl Observer {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Controller {
     /// D: the poles of the observer and of the lags on damping and speed.
-    pub denominator: [f64; 8],
+    pub denominator: [f64; 9],
     /// Q, by the torque of the ended tick.
-    pub of_torque: [f64; 8],
+    pub of_torque: [f64; 9],
     /// P, by the motor's angle (N m/rad).
-    pub of_angle: [f64; 8],
+    pub of_angle: [f64; 9],
 }
 
 impl LoopObserver<'_> {

@@ -129,7 +129,7 @@ impl Looped<'_> {
     /// Whether the leading coefficient of `p` keeps its sign, for lags of the torque between these two.
     fn leads(&self, lag: (f64, f64)) -> bool {
         let Controller { denominator, of_torque, of_angle } = self.controller;
-        let order = |of: &[f64; 8]| of.iter().rposition(|&c| c != 0.0).unwrap_or(0);
+        let order = |of: &[f64; 9]| of.iter().rposition(|&c| c != 0.0).unwrap_or(0);
         let top = order(denominator);
         let least = |share: f64| denominator[top] + if self.ticks == 0 { share * of_torque[top] } else { 0.0 };
         let (slow, prompt) =
