@@ -360,7 +360,7 @@ mod tests {
             proportional: 0.0,
             damping: -damping,
             reset: 0.0,
-            ..config(1.0, 1.0).with_filter(DampingLagConfig { share })
+            ..config(1.0, 1.0).with_filter(LagConfig { share })
         };
         let slips = Estimate { motor_speed: 1.0, ..Estimate::default() };
         let mut governor = SpeedLoop::<DampingLag<f64>, f64>::default();
