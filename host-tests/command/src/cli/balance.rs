@@ -103,7 +103,7 @@ pub fn answered(file: &BalanceFile) -> Result<String, Failure> {
     };
     let sheet = match &file.measured {
         Measured::Amplitudes { baseline, found } => amplitudes::outcome(file, *baseline, found).map(|it| it.page()),
-        Measured::Phasors { .. } => outcome(file).map(|outcome| page(&outcome)),
+        _ => outcome(file).map(|outcome| page(&outcome)),
     };
     Ok(sheet.map_err(failed)?.page())
 }
