@@ -45,7 +45,7 @@ fn the_wheel_is_built_installed_and_has_the_bits_of_the_firmware() {
     let path = std::env::var_os("PATH").unwrap_or_default();
     let path = std::env::join_paths([programs].into_iter().chain(std::env::split_paths(&path))).unwrap();
     let in_root = |arguments: &[&str]| {
-        let ended = Command::new(&python).args(arguments).env("PATH", &path).current_dir(&root).output().unwrap();
+        let ended = Command::new(&python).args(arguments).env("PATH", &path).current_dir(root).output().unwrap();
         ended_well(&ended);
         String::from_utf8_lossy(&ended.stderr).into_owned()
     };
