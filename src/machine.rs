@@ -74,7 +74,7 @@ pub use quantity::{
 };
 pub use reduce::Match;
 pub use reduction_error::ReductionError;
-pub use refer::{Flow, Side, refer_gap, refer_inertia, refer_stiffness, refer_torque, series};
+pub use refer::{Flow, Side, refer_gap, refer_inertia, refer_stiffness, series};
 pub use rigid::Rigid;
 pub use section::{Section, stepped, try_stepped};
 pub use sensitivity::{Element, Part, Sensitivity};

@@ -197,11 +197,6 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize, const TRIALS: usize> Pro
         learnt
     }
 
-    /// Trial runs of a plane that were entered.
-    pub fn trials_of(&self, plane: usize) -> usize {
-        self.trials.iter().filter(|trial| trial.plane == plane).count()
-    }
-
     /// The coefficients, as far as they are known.
     ///
     /// # Errors

@@ -115,21 +115,6 @@ impl Resonance {
         Damper { inertia: ring.0, stiffness: 0.0, damping }
     }
 
-    /// Frequencies (rad/s) at which the amplitude with the best tuned damper does not depend on its damping.
-    #[must_use]
-    pub const fn tuned_fixed_points(&self, mass_ratio: f64) -> [f64; 2] {
-        let apart = sqrt(mass_ratio / (2.0 + mass_ratio));
-        let scale = 1.0 / (1.0 + mass_ratio);
-        [self.frequency * sqrt(scale * (1.0 - apart)), self.frequency * sqrt(scale * (1.0 + apart))]
-    }
-
-    /// Frequency (rad/s) at which the amplitude with a viscous damper does not depend on its damping:
-    /// `omega sqrt(2/(2 + mu))`.
-    #[must_use]
-    pub const fn viscous_fixed_point(&self, mass_ratio: f64) -> f64 {
-        self.frequency * sqrt(2.0 / (2.0 + mass_ratio))
-    }
-
     /// Amplitude over the static angle in the fixed points of the best tuned damper.
     #[must_use]
     pub const fn tuned_amplitude(mass_ratio: f64) -> f64 {

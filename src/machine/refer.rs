@@ -33,16 +33,6 @@ const fn with_loss(value: f64, efficiency: f64, side: Side, flow: Flow) -> f64 {
     }
 }
 
-/// A torque (N m) on the other side of a gear of `ratio` (motor speed over load speed).
-#[must_use]
-pub const fn refer_torque(torque: f64, ratio: f64, efficiency: f64, side: Side, flow: Flow) -> f64 {
-    let kept = match side {
-        Side::Load => torque / ratio,
-        Side::Motor => torque * ratio,
-    };
-    with_loss(kept, efficiency, side, flow)
-}
-
 /// An inertia (kg m2) on the other side of a gear of `ratio`.
 #[must_use]
 pub const fn refer_inertia(inertia: f64, ratio: f64, efficiency: f64, side: Side, flow: Flow) -> f64 {

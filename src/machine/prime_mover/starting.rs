@@ -166,11 +166,4 @@ impl crate::machine::TwoMass {
     pub const fn impact_torque(&self, relative_speed: f64) -> Torque {
         Torque(relative_speed * sqrt(self.stiffness * self.reduced_inertia()))
     }
-
-    /// Least torque in the shaft after the load's torque has gone at once, the motor's torque staying what carried it
-    /// (N m); negative where the shaft would change sides.
-    #[must_use]
-    pub const fn load_loss_torque(&self, torque: Torque) -> Torque {
-        Torque(torque.0 * (self.load_inertia - self.motor_inertia) / self.total_inertia())
-    }
 }

@@ -31,15 +31,6 @@ fn peaks_of_three_starts() {
     }
 }
 
-/// What the load's loss leaves, as long as the flank is not left; D6 says where the mean is.
-#[test]
-fn loss_of_the_load() {
-    let (crane, case) = crane("D6_crane_load_loss_const");
-    let mean = case["closed_form"]["Me_Nm"].as_f64().unwrap();
-    close(crane.accelerating_torque(Torque(120.0), Torque(0.0)).0, mean, 1e-14);
-    close(crane.load_loss_torque(Torque(120.0)).0, 2.0 * mean - 120.0, 1e-14);
-}
-
 /// A gap crossed at a relative speed and nothing else: the whole energy goes into the shaft.
 #[test]
 fn impact_and_locked_rotor() {
