@@ -31,7 +31,8 @@
 //! | `TwoMassObserver`, `SemiImplicitObserver` | [`Machine::OBSERVER`] | |
 //! | `RigidObserver` | [`Machine::RIGID_OBSERVER`], [`Machine::LOAD_SHARE`] | |
 //! | `BacklashObserver` | [`Machine::BACKLASH_OBSERVER`] | a gap in the chain |
-//! | `CrankObserver` | [`HasCrank::CRANK_OBSERVER`] | [`HasCrank`] |
+//! | `MechanismObserver`, `ToolObserver` | [`HasMechanism::MECHANISM_OBSERVER`] | [`HasMechanism`] |
+//! | `MechanismFeedForward` | none | [`HasMechanism`] |
 //! | `GearedObserver` | those of its observer, [`Machine::GEAR`] | |
 //! | `LoadGearObserver` | those of its observer, [`Machine::LOAD_GEAR`] | |
 //! | `EccentricityObserver` | those of its observer | |
@@ -146,7 +147,7 @@ pub use governor::{
 pub use life::HasLife;
 pub use loop_part::LoopPart;
 pub use machine::{Machine, Rating};
-pub use observer::HasCrank;
+pub use observer::HasMechanism;
 pub use schedule_test::{RefusedPoint, ScheduleTest, test_schedule};
 pub use units::Units;
 pub use vibration::{HasVibration, VibrationNumber};

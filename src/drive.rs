@@ -283,6 +283,7 @@ where
 
     #[inline(always)]
     fn govern(&mut self, config: &ConfigOf<Self>, estimate: &Estimate<N>, faults: Faults) -> Command<N> {
+        self.governor.set_known_torque(self.observer.known_torque(&config.observer));
         let torque = self.governor.command(&config.governor, estimate);
         if <StateOf<G, N>>::COMMANDS {
             self.commanded = torque;

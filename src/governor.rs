@@ -38,7 +38,7 @@ pub use actuator_monitor::{ActuatorMonitor, ActuatorMonitorConfig};
 pub use backlash_takeup::{BacklashTakeUp, BacklashTakeUpConfig};
 pub use compensation::{
     AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, Compensation, FeedForward,
-    FeedForwardConfig,
+    FeedForwardConfig, MechanismFeedForward,
 };
 pub use input_shaper::{InputShaper, InputShaperConfig};
 pub use limit::{
@@ -80,6 +80,12 @@ pub trait Governor<N: Number>: Default {
     /// before [`command`](Self::command).
     #[inline(always)]
     fn set_steady_speed(&mut self, _steady_speed: Option<N>) {}
+
+    /// Sets the torque that a mechanism takes at the present angle, as
+    /// [`Observer::known_torque`](crate::observer::Observer::known_torque) has it: once a tick, before
+    /// [`command`](Self::command).
+    #[inline(always)]
+    fn set_known_torque(&mut self, _known_torque: N) {}
 
     /// Sets the torque of the tick that has ended, as the sample reported it, and the innovation of its angle
     /// (2^-32 turn): once a tick, before [`command`](Self::command).

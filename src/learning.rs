@@ -9,10 +9,12 @@
 //! | [`GearLoss`] | friction of a gear per shaft torque | motor torque, up and down at a steady speed |
 //! | [`TorqueConstant`] | torque constant and offset of the motor | the same under known loads |
 //! | [`RunUp`] | inertia | motor torque above that of the steady motion, per change of the speed |
+//! | [`MechanismFit`] | inertia and weight torque of a mechanism over its turn | work of the motor and speeds, in a run at two speeds |
 //! | [`EccentricityObserver`] | eccentricity of the encoder | the innovation at once a turn |
 
 mod eccentricity;
 mod gear_loss;
+mod mechanism;
 mod record;
 mod run_up;
 mod steady;
@@ -20,6 +22,7 @@ mod torque_constant;
 
 pub use eccentricity::{Correction, EccentricityConfig, EccentricityObserver};
 pub use gear_loss::{GearLoss, GearLossConfig};
+pub use mechanism::{LearntMechanism, MechanismFit, SegmentEnd};
 pub use record::{LearningBounds, Learnt};
 pub use run_up::{RunUp, RunUpConfig};
 pub use torque_constant::{TorqueCalibration, TorqueConstant, TorqueConstantConfig};

@@ -10,7 +10,7 @@
 //! | [`TwoMassObserver`] | mean speed, twist rate, twist, load torque | any stiffness, any tick rate |
 //! | [`BacklashObserver`] | those of [`TwoMassObserver`], the twist through the gap | shafts with backlash |
 //! | [`SemiImplicitObserver`] | motor speed, load speed, shaft torque, load torque | soft shafts sampled fast |
-//! | [`CrankObserver`] | speed, load torque, crank angle | rigid machines with a crank: an inertia that depends on the angle |
+//! | [`MechanismObserver`] | speed, load torque, crank angle | rigid machines with a crank, linkage or cam: an inertia that depends on the angle |
 //!
 //! [`GearedObserver`] puts any of them behind a gear with losses, [`LoadGearObserver`] in front of one.
 //!
@@ -26,18 +26,20 @@
 
 mod angle;
 mod backlash;
-mod cranked;
+mod force_limit;
 mod geared;
 mod load_gear;
+mod mechanism;
 mod rigid;
 mod semi_implicit;
 mod two_mass;
 
 pub use angle::{AngleTracker, Prediction};
 pub use backlash::{BacklashConfig, BacklashObserver, Contact, Correction, FreeFlight, Gap};
-pub use cranked::{CrankConfig, CrankObserver, TABLE_POINTS, TablePoint};
+pub use force_limit::ForceLimitConfig;
 pub use geared::{GearFriction, GearedConfig, GearedObserver, Stiction};
 pub use load_gear::{LoadGearConfig, LoadGearObserver};
+pub use mechanism::{MechanismConfig, MechanismObserver, TABLE_POINTS, TablePoint, Tool, ToolObserver};
 pub use rigid::{RigidConfig, RigidObserver};
 pub use semi_implicit::{SemiImplicitConfig, SemiImplicitObserver};
 pub use two_mass::{TwoMassConfig, TwoMassObserver};
@@ -93,6 +95,12 @@ pub trait Observer<N: Number>: Sized {
 
     /// The present estimate.
     fn estimate(&self, config: &Self::Config) -> Estimate<N>;
+
+    /// Torque that a mechanism takes at the present angle and speed, by its inertia and its weight; zero without one.
+    #[inline(always)]
+    fn known_torque(&self, _config: &Self::Config) -> N {
+        N::ZERO
+    }
 
     /// The last accepted angle, 2^32 per turn.
     fn angle(&self) -> u32;

@@ -4,11 +4,11 @@
 mod advice;
 mod calibration;
 mod correction;
-mod cranked;
 mod fluctuation;
 mod governors;
 #[cfg(target_has_atomic = "32")]
 mod kernels;
+mod mechanism;
 mod phasors;
 mod steps;
 mod table;

@@ -9,10 +9,10 @@ use crate::governor::{
     AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, ActuatorMonitor,
     ActuatorMonitorConfig, BacklashTakeUp, BacklashTakeUpConfig, Barred, BarredConfig, Curve, CurveConfig,
     CycleAverage, DampingLag, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, InputShaper,
-    InputShaperConfig, LagConfig, LoadSharing, LoadSharingConfig, LoopFilter, MovingAverage, MovingAverageConfig,
-    Sequencer, SequencerConfig, SetpointLag, Slew, SlewConfig, SpeedGovernor, SpeedGovernorConfig, SpeedLag, SpeedLoop,
-    SpeedLoopConfig, Supervised, SupervisedConfig, SupervisionConfig, SymmetricLimit, SymmetricLimitConfig,
-    TorqueRange, TorqueRangeConfig,
+    InputShaperConfig, LagConfig, LoadSharing, LoadSharingConfig, LoopFilter, MechanismFeedForward, MovingAverage,
+    MovingAverageConfig, Sequencer, SequencerConfig, SetpointLag, Slew, SlewConfig, SpeedGovernor, SpeedGovernorConfig,
+    SpeedLag, SpeedLoop, SpeedLoopConfig, Supervised, SupervisedConfig, SupervisionConfig, SymmetricLimit,
+    SymmetricLimitConfig, TorqueRange, TorqueRangeConfig,
 };
 use crate::number::{Fixed, Number, Part};
 use crate::settings::{ActuatorMonitorSettings, Bases, LoadSharingSettings, SequencerSettings, SpeedLoopSettings};
@@ -127,6 +127,12 @@ impl<M: Machine, N: Number> Configure<M, N> for CycleAverage {
         let averaging = Averaging::Cycle(core::f64::consts::TAU * turns / M::RATING.speed.0);
         LoopPart { averaging, ..LoopPart::NONE }
     };
+}
+
+/// None: the observer has the mechanism.
+impl<M: super::HasMechanism, N: Number> Configure<M, N> for MechanismFeedForward {
+    type Config = ();
+    const CONFIG: () = ();
 }
 
 /// None: its time constant is that of the loop's gains.

@@ -1,22 +1,22 @@
 //! Observers for a machine.
 
 use super::{Configure, LoopPart, Machine};
-use crate::design::CrankedDesign;
+use crate::design::MechanismDesign;
 use crate::learning::{Correction, EccentricityObserver};
 use crate::number::Fixed;
 use crate::observer::{
-    BacklashConfig, BacklashObserver, CrankConfig, CrankObserver, GearedConfig, GearedObserver, LoadGearConfig,
-    LoadGearObserver, RigidConfig, RigidObserver, SemiImplicitConfig, SemiImplicitObserver, TwoMassConfig,
+    BacklashConfig, BacklashObserver, GearedConfig, GearedObserver, LoadGearConfig, LoadGearObserver, MechanismConfig,
+    MechanismObserver, RigidConfig, RigidObserver, SemiImplicitConfig, SemiImplicitObserver, TwoMassConfig,
     TwoMassObserver,
 };
 use crate::settings::Bases;
 
-/// A machine with a crank: an inertia that depends on the angle.
-pub trait HasCrank: Machine {
+/// A machine with a mechanism: an inertia that depends on the angle.
+pub trait HasMechanism: Machine {
     /// The machine as the observer has it.
-    const CRANKED: crate::machine::Cranked;
+    const DRIVEN: crate::machine::DrivenMechanism;
     /// The observer, from machine, rate, encoder and disturbance.
-    const CRANK_OBSERVER: CrankedDesign = Self::CRANKED.observer(Self::RATE, Self::ENCODER, Self::DISTURBANCE);
+    const MECHANISM_OBSERVER: MechanismDesign = Self::DRIVEN.observer(Self::RATE, Self::ENCODER, Self::DISTURBANCE);
 }
 
 impl<M: Machine, N: Correction, O: Configure<M, N>> Configure<M, N> for EccentricityObserver<O> {
@@ -51,10 +51,10 @@ macro_rules! observers {
             const LOOP: LoopPart = LoopPart { two_mass: Some(M::BACKLASH_OBSERVER.contact), ..LoopPart::NONE };
         }
 
-        impl<M: HasCrank> Configure<M, $number> for CrankObserver {
-            type Config = CrankConfig<$number>;
-            const CONFIG: Self::Config = CrankConfig::<$number>::new(&M::CRANK_OBSERVER, $bases);
-            const LOOP: LoopPart = LoopPart { rigid: Some(M::CRANK_OBSERVER.rigid), ..LoopPart::NONE };
+        impl<M: HasMechanism, const TOOLS: usize> Configure<M, $number> for MechanismObserver<f32, TOOLS> {
+            type Config = MechanismConfig<$number, TOOLS>;
+            const CONFIG: Self::Config = MechanismConfig::<$number, TOOLS>::new(&M::MECHANISM_OBSERVER, $bases);
+            const LOOP: LoopPart = LoopPart { rigid: Some(M::MECHANISM_OBSERVER.rigid), ..LoopPart::NONE };
         }
 
         impl<M: Machine, O: Configure<M, $number, Config: Copy>> Configure<M, $number> for GearedObserver<O> {

@@ -17,7 +17,7 @@ sentences! {
         disturbances",
     NotStabilising => "the observer's gain does not stabilise the estimate: the disturbances are too small for this \
         machine",
-    CrankedNotStabilising => "the gains for the crank drive's mean inertia do not stabilise the estimate at its least \
+    MechanismNotStabilising => "the gains for the mechanism's mean inertia do not stabilise the estimate at its least \
         or its largest one: the inertia swings too far, or the disturbances are too small",
     NoGap => "the machine has no backlash: take the observer of two masses",
     Wander => "the wanders of the backlash's tuning must be finite, those of twist and load torque above zero, that of \

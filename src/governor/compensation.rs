@@ -1,4 +1,4 @@
-//! Compensation torque: load feed-forward, active damping, acceleration feedback.
+//! Compensation torque: feed-forward of the load and of a mechanism, active damping, acceleration feedback.
 
 use crate::number::{Number, Part};
 use crate::sample::Estimate;
@@ -7,6 +7,10 @@ use crate::sample::Estimate;
 pub trait Compensation<N: Number>: Default {
     /// Its constants.
     type Config;
+
+    /// Sets the torque that a mechanism takes at the present angle.
+    #[inline(always)]
+    fn set_known_torque(&mut self, _known_torque: N) {}
 
     /// `torque` with the steady compensation, which counts for the droop.
     #[inline(always)]
@@ -28,6 +32,12 @@ impl<N: Number> Compensation<N> for () {
 
 impl<N: Number, A: Compensation<N>, B: Compensation<N>> Compensation<N> for (A, B) {
     type Config = (A::Config, B::Config);
+
+    #[inline(always)]
+    fn set_known_torque(&mut self, known_torque: N) {
+        self.0.set_known_torque(known_torque);
+        self.1.set_known_torque(known_torque);
+    }
 
     #[inline(always)]
     fn steady(&self, config: &Self::Config, estimate: &Estimate<N>, torque: N) -> N {
@@ -68,6 +78,35 @@ impl<N: Number> Compensation<N> for FeedForward {
     #[inline(always)]
     fn steady(&self, config: &FeedForwardConfig<N>, estimate: &Estimate<N>, torque: N) -> N {
         torque + estimate.load_torque.widened().times(config.share)
+    }
+}
+
+/// Feed-forward of a mechanism: the torque `J' omega^2/2 + G y'` that its inertia and its weight take at the present
+/// angle, from a [`MechanismObserver`](crate::observer::MechanismObserver). The speed stays flat, and the motor gives
+/// the ripple. For a flat torque leave it out and take [`CycleAverage`](super::CycleAverage): the speed swings then.
+///
+/// The droop leaves it out, which is zero in the mean. Home the crank first.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct MechanismFeedForward<N = f32> {
+    known_torque: N,
+}
+
+impl<N> Part<N> for MechanismFeedForward {
+    type State = MechanismFeedForward<N>;
+}
+
+impl<N: Number> Compensation<N> for MechanismFeedForward<N> {
+    type Config = ();
+
+    #[inline(always)]
+    fn set_known_torque(&mut self, known_torque: N) {
+        self.known_torque = known_torque;
+    }
+
+    #[inline(always)]
+    fn transient(&self, _config: &(), _estimate: &Estimate<N>, torque: N) -> N {
+        torque + self.known_torque
     }
 }
 

@@ -149,6 +149,11 @@ impl<N: Number, G: Governor<N>, const SLOTS: usize, const PARTS: usize> Governor
     }
 
     #[inline(always)]
+    fn set_known_torque(&mut self, known_torque: N) {
+        self.governor.set_known_torque(known_torque);
+    }
+
+    #[inline(always)]
     fn command(&mut self, config: &Self::Config, estimate: &Estimate<N>) -> N {
         let setpoint = self.shaped(config.ramp, config.slot, config.share);
         self.governor.set_setpoint(setpoint);

@@ -197,6 +197,11 @@ where
     }
 
     #[inline(always)]
+    fn set_known_torque(&mut self, known_torque: N) {
+        self.compensation.set_known_torque(known_torque);
+    }
+
+    #[inline(always)]
     fn command(&mut self, config: &Self::Config, estimate: &Estimate<N>) -> N {
         let mut carry = N::CARRY;
         let filtered = self.filter.filter(&config.filter, estimate);

@@ -231,6 +231,11 @@ impl<N: Number, G: Governor<N>> Governor<N> for Supervised<G, N> {
     }
 
     #[inline(always)]
+    fn set_known_torque(&mut self, known_torque: N) {
+        self.governor.set_known_torque(known_torque);
+    }
+
+    #[inline(always)]
     fn set_response(&mut self, config: &Self::Config, torque: N, innovation: N) {
         self.governor.set_response(&config.governor, torque, innovation);
         self.reported = torque;

@@ -319,6 +319,11 @@ impl<N: Correction, O: Observer<N>> Observer<N> for EccentricityObserver<O, N> {
     }
 
     #[inline(always)]
+    fn known_torque(&self, config: &O::Config) -> N {
+        self.observer.known_torque(config)
+    }
+
+    #[inline(always)]
     fn angle(&self) -> u32 {
         self.measured
     }

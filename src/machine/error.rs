@@ -45,6 +45,13 @@ sentences! {
         (m)",
     CrankMass => "masses and inertias of the crank drive must be zero or positive and finite, the connecting rod's \
         centre of mass within it",
+    LinkageBars => "bars of the linkage must be positive and finite, the crank the shortest of them and with the longest \
+        shorter than the other two together; a toggle's link longer than its rocker (m)",
+    LinkageMass => "masses and inertias of the linkage must be zero or positive and finite, the coupler's centre of \
+        mass within it",
+    MechanismTable => "table of a mechanism must have an odd number of finite values at even angles of a turn, 3 or \
+        more",
+    MechanismInertia => "inertia of a machine with a mechanism must be positive and finite at every angle (kg m2)",
     BranchNode => "the mass that a branch or a closing shaft stands on must be one of the train's masses, counted \
         from 0 at the motor",
     TooManyShafts => "a train holds at most 30 shafts",

@@ -89,6 +89,11 @@ impl<N: Stiction, O: Observer<N>> Observer<N> for LoadGearObserver<O> {
     }
 
     #[inline(always)]
+    fn known_torque(&self, config: &Self::Config) -> N {
+        self.observer.known_torque(&config.observer)
+    }
+
+    #[inline(always)]
     fn angle(&self) -> u32 {
         self.observer.angle()
     }

@@ -3,8 +3,8 @@
 use driveline::angle::RotorAngleConfig;
 use driveline::number::{Coefficient, Fixed, Number};
 use driveline::observer::{
-    BacklashConfig, BacklashObserver, Contact, Correction, CrankConfig, CrankObserver, FreeFlight, GearFriction,
-    GearedConfig, GearedObserver, Observer, RigidConfig, RigidObserver, SemiImplicitConfig, SemiImplicitObserver,
+    BacklashConfig, BacklashObserver, Contact, Correction, FreeFlight, GearFriction, GearedConfig, GearedObserver,
+    MechanismConfig, MechanismObserver, Observer, RigidConfig, RigidObserver, SemiImplicitConfig, SemiImplicitObserver,
     TABLE_POINTS, TablePoint, TwoMassConfig, TwoMassObserver,
 };
 
@@ -230,8 +230,8 @@ fn a_slow_motion_of_a_gear_that_does_not_hold_is_followed() {
     assert!(speeds.any(|speed| speed > 0.0));
 }
 
-fn cranked(points: [TablePoint<f64>; TABLE_POINTS]) -> CrankConfig<f64> {
-    CrankConfig { rigid: UNIT, turning: RotorAngleConfig::new(1, 1).unwrap(), points }
+fn cranked(points: [TablePoint<f64>; TABLE_POINTS]) -> MechanismConfig<f64> {
+    MechanismConfig { rigid: UNIT, turning: RotorAngleConfig::new(1, 1).unwrap(), points, tool: [] }
 }
 
 const FLAT: TablePoint<f64> = TablePoint { inertia_ratio: 1.0, inertia_slope: 0.0 };
@@ -245,13 +245,13 @@ fn the_table_of_a_crank_closes() {
     let place = 1_u32 << 26;
     for (at, ratio) in [(-2, 1.0), (-1, 3.0), (0, 1.0)] {
         let crank_angle = place.wrapping_mul(at as u32);
-        let mut observer = CrankObserver::<f64>::at_rest(&config, 0, 0.0);
+        let mut observer = MechanismObserver::<f64>::at_rest(&config, 0, 0.0);
         observer.home(&config, crank_angle);
         observer.step(&config, 0, 1.0);
         let speed = observer.estimate(&config).motor_speed;
         // the angle in the table has 2^-26 turns of resolution, 2^-20 of a place
         assert!((speed - ratio).abs() < 1e-5, "{at}: {speed}");
-        observer = CrankObserver::<f64>::at_rest(&config, 0, 0.0);
+        observer = MechanismObserver::<f64>::at_rest(&config, 0, 0.0);
         observer.home(&config, crank_angle.wrapping_add(place / 2));
         observer.step(&config, 0, 1.0);
         let speed = observer.estimate(&config).motor_speed;
@@ -264,7 +264,7 @@ fn the_table_of_a_crank_closes() {
 #[test]
 fn a_crank_that_coasts_goes_on_and_one_that_starts_anew_keeps_its_angle() {
     let config = cranked([TablePoint { inertia_ratio: 2.0, ..FLAT }; TABLE_POINTS]);
-    let mut observer = CrankObserver::<f64>::at_rest(&config, 0, 0.0);
+    let mut observer = MechanismObserver::<f64>::at_rest(&config, 0, 0.0);
     observer.home(&config, 1 << 30);
     let predicted = observer.predict(&config, 0, 4.0);
     observer.coast(predicted, 0);
@@ -284,8 +284,8 @@ fn a_crank_that_coasts_goes_on_and_one_that_starts_anew_keeps_its_angle() {
 /// A crank behind a gear of 5 to 2, turned backwards over its zero and forwards again.
 #[test]
 fn a_crank_behind_a_gear_turns_back_over_its_zero() {
-    let config = CrankConfig { turning: RotorAngleConfig::new(2, 5).unwrap(), ..cranked([FLAT; TABLE_POINTS]) };
-    let mut observer = CrankObserver::<f64>::at_rest(&config, 0, 0.0);
+    let config = MechanismConfig { turning: RotorAngleConfig::new(2, 5).unwrap(), ..cranked([FLAT; TABLE_POINTS]) };
+    let mut observer = MechanismObserver::<f64>::at_rest(&config, 0, 0.0);
     observer.home(&config, 0);
     let mut motor = 0_i64;
     // two turns of the motor back in steps of 0.3 turn, three forwards: 0.8 and 1.2 turns of the crank
@@ -429,10 +429,11 @@ fn the_observers_tell_of_a_state_beyond_its_base() {
         deadband: Fixed::ZERO,
     });
     let flat = TablePoint { inertia_ratio: Fixed::ONE, inertia_slope: Fixed::ZERO };
-    tells::<CrankObserver<Fixed>>(&CrankConfig {
+    tells::<MechanismObserver<Fixed>>(&MechanismConfig {
         rigid,
         turning: RotorAngleConfig::new(1, 1).unwrap(),
         points: [flat; TABLE_POINTS],
+        tool: [],
     });
     let gains = Correction { states: [zero; 4], angle: zero };
     tells::<BacklashObserver<Fixed>>(&BacklashConfig {
@@ -467,7 +468,7 @@ fn the_observers_take_an_angle_over() {
     follows::<SemiImplicitObserver<f64>>(&SEMI_IMPLICIT);
     follows::<BacklashObserver<f64>>(&BACKLASH);
     follows::<GearedObserver<RigidObserver<f64>>>(&geared(16.0));
-    follows::<CrankObserver<f64>>(&cranked([FLAT; TABLE_POINTS]));
+    follows::<MechanismObserver<f64>>(&cranked([FLAT; TABLE_POINTS]));
 }
 
 /// The estimate is the same under both constants: in contact the stretch takes the stiffness over, in the gap nothing.

@@ -7,7 +7,7 @@ use driveline::settings::Bases;
 
 use super::Bench;
 use super::calibration::{ten_nops, thousand_nops};
-use super::{advice, correction, cranked, fluctuation, governors, phasors, steps, wheel};
+use super::{advice, correction, fluctuation, governors, mechanism, phasors, steps, wheel};
 use crate::Words;
 use crate::board::Board;
 use crate::measure::count::Measured;
@@ -23,7 +23,7 @@ pub fn run<V: Variant, B: Board>(bench: &mut Bench<'_, B>, tick: Measured<V::Sce
     match const { Words::of::<V>() } {
         Words::Single => {
             steps::single(bench);
-            cranked::single(bench);
+            mechanism::single(bench);
             phasors::single(bench);
             fluctuation::all::<B, f32>(
                 bench,
@@ -34,7 +34,7 @@ pub fn run<V: Variant, B: Board>(bench: &mut Bench<'_, B>, tick: Measured<V::Sce
         }
         Words::Fixed => {
             steps::fixed(bench);
-            cranked::fixed(bench);
+            mechanism::fixed(bench);
             phasors::fixed(bench);
             const BASES: Bases = Hoist::<10_000>::BASES;
             let mean = CycleMeanConfig::<Fixed>::new::<4>(fluctuation::QUARTER, 1e-4, BASES);

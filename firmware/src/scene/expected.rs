@@ -10,7 +10,7 @@ use driveline::learning::EccentricityObserver;
 use driveline::machine;
 use driveline::number::Part;
 use driveline::observer::{
-    BacklashObserver, CrankObserver, GearedObserver, RigidObserver, SemiImplicitObserver, TwoMassObserver,
+    BacklashObserver, GearedObserver, MechanismObserver, RigidObserver, SemiImplicitObserver, TwoMassObserver,
 };
 
 /// A design's prediction for its observer.
@@ -99,7 +99,7 @@ impl<M: Machine> Expects<M> for RigidObserver {
     }
 }
 
-impl<M> Expects<M> for CrankObserver {}
+impl<M> Expects<M> for MechanismObserver {}
 
 impl<M, O: Expects<M>> Expects<M> for GearedObserver<O> {
     fn expected() -> Option<Expected> {

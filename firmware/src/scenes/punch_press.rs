@@ -17,7 +17,7 @@
 //! | `plain` | by a plain speed loop, which fights the ripple | nothing |
 //! | `mean` | on the speed without its ripple, so that the flywheel does the stroke's work | the fluctuation over the stroke; advises a flywheel |
 
-use driveline::configure::{GainSource, HasCrank, Machine, Rating};
+use driveline::configure::{GainSource, HasMechanism, Machine, Rating};
 use driveline::design::{
     Actuator, Disturbance, Encoder, GovernorDesign, LoadFeedForward, SpeedLoopDesign, SpeedLoopTuning,
 };
@@ -25,7 +25,7 @@ use driveline::drive::{ConfigOf, Drive};
 use driveline::fluctuation::{Balance, CycleMean, Flywheel, Ripple, Series, Summed, Waveform, WaveformConfig, Window};
 use driveline::governor::{CycleAverage, SpeedGovernor, SpeedLoop, SymmetricLimit};
 use driveline::machine::{
-    Chain, CrankSlider, Cranked, Damping, Efficiency, Inertia, Length, Mass, Match, Ratio, Speed, Stiffness, Torque,
+    Chain, CrankSlider, DrivenMechanism, Damping, Efficiency, Inertia, Length, Mass, Match, Mechanism, Ratio, Speed, Stiffness, Torque,
     TwoMass,
 };
 use driveline::number::Number;
@@ -78,8 +78,8 @@ impl Machine for PunchPress {
 }
 
 /// As the observer has it.
-impl HasCrank for PunchPress {
-    const CRANKED: Cranked = Cranked::new(Inertia(FLYWHEEL), &RAM, 1, RATIO);
+impl HasMechanism for PunchPress {
+    const DRIVEN: DrivenMechanism = DrivenMechanism::new(Inertia(FLYWHEEL), &Mechanism::slider_crank(&RAM), 1, RATIO);
 }
 
 /// Counts of the encoder on a turn.
@@ -121,7 +121,7 @@ pub static INERTIA: [f64; 64] = {
     let mut table = [0.0; 64];
     let mut k = 0;
     while k < 64 {
-        table[k] = PunchPress::CRANKED.inertia((0.5 + k as f64 / 64.0) * core::f64::consts::TAU).inertia;
+        table[k] = PunchPress::DRIVEN.point(128 + 4 * k).inertia;
         k += 1;
     }
     table
@@ -150,11 +150,11 @@ pub mod panel {
 }
 
 /// The drive of a press that is governed by a plain speed loop.
-pub type PlainDrive<N> = Drive<N, observer::CrankObserver, SpeedLoop>;
+pub type PlainDrive<N> = Drive<N, observer::MechanismObserver, SpeedLoop>;
 /// The drive of a press that is governed on the mean over a stroke, with the measurement of the fluctuation.
 pub type MeanDrive<N> = Drive<
     N,
-    observer::CrankObserver,
+    observer::MechanismObserver,
     SpeedGovernor<(), (), SymmetricLimit, (), CycleAverage>,
     (CycleMean<SEGMENTS>, Waveform<BINS>),
 >;

@@ -4,7 +4,7 @@ use driveline::design::{Rate, StepChoice};
 use driveline::governor::SpeedLoopConfig;
 use driveline::number::Fixed;
 use driveline::observer::{
-    BacklashConfig, BacklashObserver, CrankConfig, CrankObserver, GearedConfig, GearedObserver, RigidConfig,
+    BacklashConfig, BacklashObserver, MechanismConfig, MechanismObserver, GearedConfig, GearedObserver, RigidConfig,
     RigidObserver, SemiImplicitConfig, SemiImplicitObserver, TwoMassConfig, TwoMassObserver,
 };
 use driveline::settings::Bases;
@@ -133,7 +133,7 @@ pub fn with<V: Visitor>(scene: &Scene, peer: usize, value: f32, visitor: V) -> O
                     BacklashObserver<$number>,
                     BacklashConfig::<$number>::try_new(&scene.backlash?, bases).ok()?
                 ),
-                _ => behind!(CrankObserver<$number>, CrankConfig::<$number>::try_new(&scene.crank?, bases).ok()?),
+                _ => behind!(MechanismObserver<$number>, MechanismConfig::<$number>::try_new(&scene.crank?, bases).ok()?),
             }
         }};
     }

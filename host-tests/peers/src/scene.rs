@@ -1,8 +1,8 @@
 //! The scenes' machines as the observers know them.
 
-use driveline::configure::{HasCrank, Machine};
+use driveline::configure::{HasMechanism, Machine};
 use driveline::design::{
-    BacklashDesign, CrankedDesign, Disturbance, Encoder, Rate, RigidDesign, SpeedLoopDesign, TwoMassDesign,
+    BacklashDesign, MechanismDesign, Disturbance, Encoder, Rate, RigidDesign, SpeedLoopDesign, TwoMassDesign,
 };
 use driveline::machine::TwoMass;
 use driveline::settings::{Bases, Gear};
@@ -35,7 +35,7 @@ pub struct Scene {
     /// The observer through the gap.
     pub backlash: Option<BacklashDesign>,
     /// The observer with a crank.
-    pub crank: Option<CrankedDesign>,
+    pub crank: Option<MechanismDesign>,
     /// Bases of fixed point.
     pub bases: Bases,
     /// Gains of the speed loop.
@@ -78,8 +78,8 @@ impl Scene {
         Scene { backlash: Some(M::BACKLASH_OBSERVER), ..self }
     }
 
-    const fn crank<M: HasCrank>(self) -> Self {
-        Scene { crank: Some(M::CRANK_OBSERVER), ..self }
+    const fn crank<M: HasMechanism>(self) -> Self {
+        Scene { crank: Some(M::MECHANISM_OBSERVER), ..self }
     }
 
     /// The tick rate.

@@ -3,7 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use driveline::configure::HasCrank as _;
+use driveline::configure::HasMechanism as _;
 use driveline::configure::Machine as _;
 use driveline_firmware::scenes::punch_press::{self as scene, PunchPress};
 
@@ -82,8 +82,8 @@ pub fn press(added: f64) -> Result<Body, PlantError> {
 /// The press and its run.
 pub fn machine() -> Result<Machine, PlantError> {
     let torque_noise = 0.01 * PunchPress::RATING.torque.0;
-    let [least, most] = PunchPress::CRANKED.extremes();
-    let sd = PunchPress::CRANK_OBSERVER.rigid.standard_deviation;
+    let [least, most] = PunchPress::DRIVEN.extremes();
+    let sd = PunchPress::MECHANISM_OBSERVER.rigid.standard_deviation;
     Ok(Machine {
         summary: "An eccentric punch press with a flywheel: run-up, continuous strokes, and on without plate.",
         facts: vec![

@@ -50,7 +50,7 @@ fn the_instructions_of_a_step_are_those_of_the_bench() {
         ("`SemiImplicitObserver`", "bench/step/semi-implicit"),
         ("`TwoMassObserver`", "bench/step/exact"),
         ("`BacklashObserver`", "bench/step/backlash"),
-        ("`CrankObserver`", "bench/step/cranked"),
+        ("`MechanismObserver`", "bench/step/mechanism"),
     ] {
         let rows = rows("README.md", "Which observer");
         let row = rows.iter().find(|row| row[0] == observer).unwrap();

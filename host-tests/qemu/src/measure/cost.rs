@@ -128,7 +128,7 @@ pub const BENCHES: &[&str] = &[
     "bench/drive/semi-implicit/static",
     "bench/phasor/1",
     "bench/phasor/2",
-    "bench/step/cranked",
+    "bench/step/mechanism",
     "bench/step/backlash",
     "bench/drive/backlash",
     "bench/balance/least-squares",

@@ -1,29 +1,29 @@
-//! The observer of a cranked machine: the Kalman filter of its mean inertia, which has to hold at every other one.
+//! The observer of a machine with a mechanism: the Kalman filter of its mean inertia, which has to hold at every other one.
 
 use super::tuning::{Disturbance, Encoder, Rate};
 use super::{Error, Matrix, RigidDesign, eigenvalues, spectral_radius};
-use crate::machine::{Cranked, Inertia, Rigid};
+use crate::machine::{DrivenMechanism, Inertia, Rigid};
 
-/// The observer of a cranked machine.
+/// The observer of a machine with a mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct CrankedDesign {
+pub struct MechanismDesign {
     /// The machine it is for.
-    pub machine: Cranked,
+    pub machine: DrivenMechanism,
     /// The observer of the mean inertia, whose gains stand at every angle.
     pub rigid: RigidDesign,
     /// Largest pole magnitude at the smallest and the largest inertia.
     pub spectral_radii: [f64; 2],
 }
 
-impl Cranked {
+impl DrivenMechanism {
     /// Designs the observer.
     ///
     /// # Panics
     /// At compile time in a constant, with the sentence of the [`Error`] that [`try_observer`](Self::try_observer)
     /// returns.
     #[must_use]
-    pub const fn observer(&self, rate: Rate, encoder: Encoder, disturbance: Disturbance) -> CrankedDesign {
+    pub const fn observer(&self, rate: Rate, encoder: Encoder, disturbance: Disturbance) -> MechanismDesign {
         match self.try_observer(rate, encoder, disturbance) {
             Ok(design) => design,
             Err(error) => error.stop(),
@@ -33,14 +33,14 @@ impl Cranked {
     /// [`observer`](Self::observer), with an error instead of a panic.
     ///
     /// # Errors
-    /// As [`Rigid::try_observer`], and [`Error::CrankedNotStabilising`] where the gains of the mean inertia leave a
+    /// As [`Rigid::try_observer`], and [`Error::MechanismNotStabilising`] where the gains of the mean inertia leave a
     /// pole on or outside the unit circle at the least or the largest one.
     pub const fn try_observer(
         &self,
         rate: Rate,
         encoder: Encoder,
         disturbance: Disturbance,
-    ) -> Result<CrankedDesign, Error> {
+    ) -> Result<MechanismDesign, Error> {
         let mean = match Rigid::try_new(Inertia(self.mean_inertia())) {
             Ok(mean) => mean,
             Err(error) => return Err(Error::Machine(error)),
@@ -52,9 +52,9 @@ impl Cranked {
         let [least, most] = self.extremes();
         let spectral_radii = [held_at(&rigid, least), held_at(&rigid, most)];
         if !(spectral_radii[0] < 1.0 && spectral_radii[1] < 1.0) {
-            return Err(Error::CrankedNotStabilising);
+            return Err(Error::MechanismNotStabilising);
         }
-        Ok(CrankedDesign { machine: *self, rigid, spectral_radii })
+        Ok(MechanismDesign { machine: *self, rigid, spectral_radii })
     }
 }
 

@@ -1,0 +1,101 @@
+//! Constants of the observer of a machine with a mechanism.
+
+use super::Error;
+use super::constants::constants;
+use super::convert::get;
+use crate::angle::RotorAngleConfig;
+use crate::design::MechanismDesign;
+use crate::machine::{DrivenMechanism, MECHANISM_POINTS};
+use crate::observer::{ForceLimitConfig, MechanismConfig, RigidConfig, TABLE_POINTS, TablePoint, Tool};
+
+const GEAR: &str =
+    "the crank must turn between 1/65536 and 15 times while the motor turns once, in at most 2^20 turns of the motor";
+const LIGHT: &str = "the mechanism's inertia swings too far for its number: the least one must be above 0.35 of the \
+    mean in fixed point";
+const DRAG: &str = "the mechanism's inertia torque is too large for its number: in fixed point, at the base of the \
+    speed, it must with that of the weight be below 0.9 of the base of the torque";
+const WEIGHT: &str = "the mechanism has a weight that this observer leaves out: take ToolObserver";
+
+/// Places of the machine's own table to one of the observer's.
+const STRIDE: usize = MECHANISM_POINTS / TABLE_POINTS;
+
+impl MechanismDesign {
+    /// Mean inertia over inertia, torque of the inertia at the base of the speed per base of the torque, and leverage
+    /// per unit of the largest: at a point of the table.
+    const fn point(&self, k: usize, mean: f64, torque: f64, speed: f64, most: f64) -> [f64; 3] {
+        let here = self.machine.point(k * STRIDE);
+        let leverage = if most > 0.0 { here.leverage / most } else { 0.0 };
+        [mean / here.inertia, 0.5 * here.derivative * speed * speed / torque, leverage]
+    }
+
+    const fn turning(&self) -> Result<RotorAngleConfig, Error> {
+        match RotorAngleConfig::new(self.machine.turns, self.machine.motor_turns) {
+            Some(turning) => Ok(turning),
+            None => Err(Error::Value(GEAR)),
+        }
+    }
+
+    /// The part of the mean inertia that lies behind the motor's shaft.
+    const fn load_share(&self) -> f64 {
+        1.0 - self.machine.constant / self.machine.mean_inertia()
+    }
+}
+
+constants! {
+    /// [`Error::Coefficient`] or [`Error::Value`] for a value beyond its number, a gear ratio out of range, or a weight
+    /// that the observer has no tool for.
+    impl[const TOOLS: usize] MechanismConfig[, TOOLS], new, try_new(design: &MechanismDesign), |format| {
+        if TOOLS > 1 || (TOOLS == 0 && design.machine.mechanism.weight != 0.0) {
+            return Err(Error::Value(WEIGHT));
+        }
+        let rigid = get!(RigidConfig::<Number>::try_new(&design.rigid, design.load_share(), format.bases));
+        let mean = design.machine.mean_inertia();
+        let most = design.machine.most_leverage();
+        let heavy = design.machine.mechanism.weight * most / format.bases.torque;
+        let none = get!(To::exactly(0.0, DRAG));
+        let mut points = [TablePoint { inertia_ratio: none, inertia_slope: none }; TABLE_POINTS];
+        let weight = if TOOLS == 0 { none } else { get!(To::exactly(heavy, DRAG)) };
+        let mut tool = [Tool { leverage: [none; TABLE_POINTS], weight }; TOOLS];
+        let mut k = 0;
+        while k < TABLE_POINTS {
+            let [inertia_ratio, inertia_slope, leverage] =
+                design.point(k, mean, format.bases.torque, format.bases.speed, most);
+            // With the accelerating torque held within twice the base, the torque that is given stays within the
+            // headroom.
+            if format.unit != 1.0 && !(inertia_ratio < 1.0 / 0.35) {
+                return Err(Error::Value(LIGHT));
+            }
+            if format.unit != 1.0 && !(inertia_slope.abs() + heavy.abs() * leverage.abs() < 0.9) {
+                return Err(Error::Value(DRAG));
+            }
+            points[k] = TablePoint {
+                inertia_ratio: get!(To::exactly(inertia_ratio, LIGHT)),
+                inertia_slope: get!(To::exactly(inertia_slope, DRAG)),
+            };
+            if TOOLS > 0 {
+                tool[0].leverage[k] = get!(To::exactly(leverage, DRAG));
+            }
+            k += 1;
+        }
+        Ok(MechanismConfig { rigid, turning: get!(design.turning()), points, tool })
+    }
+}
+
+const FORCE: &str = "the limit of the tool's force and its idle torque must be numbers of the torque's base, limit and \
+    least leverage positive, of a mechanism with a tool";
+
+constants! {
+    /// [`Error::Value`] for a mechanism without a tool, a torque beyond its number, or a least leverage that is not
+    /// positive.
+    impl[] ForceLimitConfig[], new, try_new(machine: &DrivenMechanism, force: f64, idle: f64, least: f64), |format| {
+        let full = force * machine.most_leverage() / format.bases.torque;
+        if !(full > 0.0 && least > 0.0) {
+            return Err(Error::Value(FORCE));
+        }
+        Ok(ForceLimitConfig {
+            torque: get!(To::exactly(full, FORCE)),
+            idle: get!(To::exactly(idle / format.bases.torque, FORCE)),
+            least: get!(To::exactly(least, FORCE)),
+        })
+    }
+}
