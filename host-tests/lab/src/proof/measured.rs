@@ -142,13 +142,13 @@ impl<'a, F: Observer<Fixed> + Copy, R: Observer<f64> + Copy> Pair<'a, F, R> {
         let Linear { step, outputs, units } = linear;
         let n = step.len();
         let last = n - 1;
-        // what the error of a state now makes of the output later, while it is a thousandth of the most
+        // what the error of a state now makes of the output later, while it is a millionth of the most
         let mut later = vec![outputs[output].clone()];
         let mut most = vec![0.0_f64; n];
         while later.len() < ticks {
             let row = &later[later.len() - 1];
             most.iter_mut().zip(row).for_each(|(most, x)| *most = most.max(x.abs()));
-            if row.iter().zip(&most).all(|(x, most)| x.abs() <= 1e-3 * most) {
+            if row.iter().zip(&most).all(|(x, most)| x.abs() <= 1e-6 * most) {
                 break;
             }
             let next: Vec<f64> = (0..n).map(|j| row.iter().zip(step).map(|(x, of)| x * of[j]).sum()).collect();
