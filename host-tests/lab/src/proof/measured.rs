@@ -105,9 +105,9 @@ impl<'a, F: Observer<Fixed> + Copy, R: Observer<f64> + Copy> Pair<'a, F, R> {
 
     fn most(mut self, linear: &Linear, ticks: u64) -> [f64; 4] {
         let mut most = self.drawn(ticks / 2);
-        for output in 0..4 {
+        for (output, most) in most.iter_mut().enumerate() {
             self.restart();
-            most[output] = most[output].max(self.sought(linear, output, (ticks / 64) as usize));
+            *most = most.max(self.sought(linear, output, (ticks / 64) as usize));
         }
         most
     }

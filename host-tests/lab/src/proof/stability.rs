@@ -218,7 +218,7 @@ pub fn prove(subject: &Subject, (factors, ticks): ([(f64, f64); 6], [u32; 2])) -
                 looped.over(&thin).radius
             };
             let cut = (0..7).filter(|&k| cell[k].1 > cell[k].0).min_by(|&i, &j| shrunk(i).total_cmp(&shrunk(j)))?;
-            if cut > 0 && left.len() % 64 == 0 {
+            if cut > 0 && left.len().is_multiple_of(64) {
                 let mut at: [f64; 6] = std::array::from_fn(|k| 0.5 * (cell[k + 1].0 + cell[k + 1].1));
                 at[2] = looped.stiffness(&cell).clamp(c.0, c.1);
                 if !looped.is_stable(subject, at) {
