@@ -50,6 +50,9 @@ impl FileCase {
         let damped = machine.with_dampers().map_err(refused)?;
         let two = damped.two_masses().ok_or_else(|| refused(NO_SHAFT.to_owned()))?;
         damped.drive_gears(&two, false).map_err(refused)?;
+        if let Some(why) = machine.gear_that_stops_at_once() {
+            return Err(format!("no plant can be made: {why}"));
+        }
         let designs = Designs::of(&damped, &two).map_err(|error| refused(error.to_string()))?;
         let cycle = machine.cycle(two.gravity_torque);
         let ramp = machine.limits.speed / designs.ramp;

@@ -68,6 +68,26 @@ impl MachineFile {
         self.carried().rigid
     }
 
+    /// Why a gear without a shaft behind it has no motion in which its load drives it, and what gives it one; none where
+    /// each has one.
+    pub fn gear_that_stops_at_once(&self) -> Option<String> {
+        let (names, _) = self.names();
+        self.rigid_gears().into_iter().find_map(|(mass, gear)| {
+            let RigidGear { front, back_efficiency, .. } = gear;
+            let behind = self.masses()[mass] - front;
+            // half as much again and a twentieth: a campaign draws other efficiencies
+            let missing = (0.05 - 1.5 * back_efficiency) * behind - front;
+            (front + back_efficiency * behind <= 0.0).then(|| {
+                format!(
+                    "driven by its load, the gear in `{}` would stop at once: its `back_efficiency` is \
+                     {back_efficiency}, and {front} kg m² stand before it; put a `rotor` of {missing:.3e} kg m², at \
+                     the motor, before the gear",
+                    names[mass]
+                )
+            })
+        })
+    }
+
     /// The label of an element whose losses nothing carries: it stands before the first shaft, has no inertia behind
     /// it.
     pub fn losses_of_no_chain(&self) -> Option<String> {

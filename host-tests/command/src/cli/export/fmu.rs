@@ -61,16 +61,8 @@ pub fn is_a_plant(machine: &MachineFile, source: &str) -> Result<(), Failure> {
     if machine.viscous().iter().any(|viscous| *viscous > 0.0) {
         return refused("it has `viscous`, which the plant does not have".to_owned());
     }
-    for (mass, gear) in machine.rigid_gears() {
-        let behind = machine.masses()[mass] - gear.front;
-        if gear.front + gear.back_efficiency * behind <= 0.0 {
-            let (name, least) = (&machine.names().0[mass], -gear.front / behind);
-            return no_plant(format!(
-                "driven by its load, the gear in `{name}` would stop at once: its `back_efficiency` is {}, expected \
-                 above {least:.3e}, or a shaft behind the gear",
-                gear.back_efficiency
-            ));
-        }
+    if let Some(why) = machine.gear_that_stops_at_once() {
+        return no_plant(why);
     }
     match machine.losses_of_no_chain() {
         Some(label) => refused(format!("the losses of `{label}` need a shaft before or behind it")),

@@ -109,7 +109,8 @@ impl Train {
             in_range("efficiency", place, eta, eta > 0.0 && eta <= 1.0, "above 0 and up to 1")?;
             // otherwise an overhauled gear would stop at once, whatever its speed
             let turns = back <= 1.0 && gear.front + back * behind > 0.0;
-            let least = "up to 1, and above minus the inertia in front of the gear over that behind it";
+            let least = "up to 1, and above minus the inertia in front of the gear over that behind it: a \
+                         rotor before the gear";
             in_range("efficiency when overhauling", place, back, turns, least)?;
             let lossy = self.links.iter().any(|link| link.is_lossy() && link.terms[0].0 == at);
             let on = self.frictions.iter().filter(|one| one.terms.iter().any(|term| term.0 == at));
