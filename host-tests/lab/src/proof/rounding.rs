@@ -134,6 +134,12 @@ impl Step {
         self.accumulate(&zero, &mut self.zero(1.0), terms)
     }
 
+    /// A turn and its remainder.
+    fn turn(&mut self, terms: &[Term<'_>]) -> [Form; 2] {
+        let (zero, mut rest) = (self.zero(f64::from(1 << TURN_SHIFT)), self.zero(1.0));
+        [self.accumulate(&zero, &mut rest, terms), rest]
+    }
+
     fn zero(&self, unit: f64) -> Form {
         Form { of: [0.0; SYMBOLS], unit, most: f64::INFINITY }
     }
@@ -148,11 +154,13 @@ impl Step {
         &mut self,
         carry: &mut Form,
         predicted: [&Form; K],
-        (residual, turn, largest): (&Form, &Form, f64),
+        (residual, [turn, rest], largest): (&Form, &[Form; 2], f64),
         gains: [(Coefficient, f64); K],
         angle_gain: (Coefficient, f64),
     ) -> Vec<Form> {
-        let innovation = residual.plus(-f64::from(1 << TURN_SHIFT), turn);
+        let places = f64::from(1 << TURN_SHIFT);
+        let cut = self.symbol((0.0, 1.0), 1.0);
+        let innovation = residual.plus(-places, turn).plus(-places, rest).plus(1.0, &cut);
         let innovation = Form { most: largest, ..innovation };
         let shifted = f64::from(1 << INNOVATION_SHIFT);
         let mut new = Vec::new();
@@ -240,9 +248,7 @@ fn exact(subject: &Subject, reach: f64, largest: f64) -> Traced {
     let accelerating = motor.plus(-1.0, &l);
     let new_w = s.accumulate(&w, carry, &[(c.acceleration, r.acceleration, &accelerating, 1.0)]);
     let path = [w.plus(1.0, &new_w), new_d.plus(-1.0, &d)];
-    let turn = s.zero(f64::from(1 << TURN_SHIFT));
-    let turn =
-        s.accumulate(&turn, carry, &[(c.turn[0], r.turn[0], &path[0], 1.0), (c.turn[1], r.turn[1], &path[1], 4.0)]);
+    let turn = s.turn(&[(c.turn[0], r.turn[0], &path[0], 1.0), (c.turn[1], r.turn[1], &path[1], 4.0)]);
     let gain = |k: usize| (c.correction[k], r.correction[k]);
     let gains = [gain(0), gain(1), gain(2), gain(3)];
     let new = s.correct(
@@ -273,8 +279,7 @@ fn semi_implicit(subject: &Subject, reach: f64, largest: f64) -> Traced {
     let rates = [new_m.plus(-1.0, &new_w), m.plus(-1.0, &w)];
     let terms = [(c.shaft[0], r.shaft[0], &rates[0], 1.0), (c.shaft[1], r.shaft[1], &rates[1], 1.0)];
     let new_t = s.accumulate(&t, carry, &terms);
-    let turn = s.zero(f64::from(1 << TURN_SHIFT));
-    let turn = s.accumulate(&turn, carry, &[(c.turn, r.turn, &new_m, 1.0)]);
+    let turn = s.turn(&[(c.turn, r.turn, &new_m, 1.0)]);
     let gain = |k: usize| (c.correction[k], r.correction[k]);
     let gains = [gain(0), gain(1), gain(2), gain(3)];
     let angle = (c.angle_correction, r.angle_correction);
@@ -293,8 +298,7 @@ fn rigid(subject: &Subject, reach: f64, largest: f64) -> Traced {
     let carry = &mut s.carry();
     let accelerating = motor.plus(-1.0, &l);
     let new_w = s.accumulate(&w, carry, &[(c.acceleration, r.acceleration, &accelerating, 1.0)]);
-    let turn = s.zero(f64::from(1 << TURN_SHIFT));
-    let turn = s.accumulate(&turn, carry, &[(c.turn, r.turn, &w.plus(1.0, &new_w), 1.0)]);
+    let turn = s.turn(&[(c.turn, r.turn, &w.plus(1.0, &new_w), 1.0)]);
     let gains = [(c.correction[0], r.correction[0]), (c.correction[1], r.correction[1])];
     let angle = (c.angle_correction, r.angle_correction);
     let mut new = s.correct(carry, [&new_w, &l], (&residual, &turn, largest), gains, angle);

@@ -9,7 +9,7 @@ use driveline_lab::proof::stability::{Outcome, prove};
 use driveline_lab::proof::subject::Subject;
 
 /// Machines whose errors decay within some hundred ticks.
-const FAST: [&str; 3] = ["spindle", "surface grinder", "vibrating screen"];
+const FAST: [&str; 3] = ["spindle", "surface grinder", "punch press"];
 
 const KINDS: [Kind; 3] = [Kind::Rigid, Kind::SemiImplicit, Kind::Exact];
 
@@ -41,7 +41,7 @@ fn fixed_point_stays_within_its_bound_of_real_numbers() {
             }
         }
     }
-    assert!(compared > 150, "{compared}");
+    assert!(compared > 120, "{compared}");
 }
 
 /// A matrix, by rows.
@@ -161,7 +161,7 @@ fn points() -> Vec<[f64; 6]> {
 
 /// Machines with a speed loop whose proof takes less than 10,000 cells.
 fn short() -> impl Iterator<Item = (&'static str, Subject)> {
-    let long = ["hoist, 1 kHz", "hoist, 4 kHz", "hoist, 10 kHz", "spindle", "gear drive"];
+    let long = ["hoist, 1 kHz", "hoist, 4 kHz", "hoist, 10 kHz", "spindle"];
     Subject::all().into_iter().filter(move |(name, subject)| subject.speed_loop.is_some() && !long.contains(name))
 }
 

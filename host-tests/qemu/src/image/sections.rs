@@ -72,6 +72,19 @@ impl Contents {
         Ok(Contents { sizes: sizes(&file), sections: sections(&file), symbols, tick_code })
     }
 
+    /// Bytes of the function at an address and of every function that it calls directly or through others.
+    pub fn reached_from(path: &Path, address: u64) -> Result<u64, ReadError> {
+        let bytes = fs::read(path).map_err(|error| ReadError::File { path: path.into(), error })?;
+        let file =
+            ElfFile32::<Endianness>::parse(&*bytes).map_err(|error| ReadError::Format { path: path.into(), error })?;
+        let symbols = symbols(&file);
+        // Bit 0 of a pointer to Thumb code is the instruction set.
+        let Some(function) = symbols.iter().find(|symbol| symbol.is_function && symbol.address == address & !1) else {
+            return Ok(0);
+        };
+        Ok(calls::reached(&file, &symbols, &function.name).iter().map(|symbol| symbol.size).sum())
+    }
+
     pub fn symbol(&self, name: &str) -> Option<&Symbol> {
         self.symbols.iter().find(|symbol| symbol.name == name)
     }
