@@ -1,6 +1,7 @@
 //! Machines, designs, observers, governors, measurement, learners, balancing and the axis, each against closed forms,
 //! published tables or the full solver. Neither firmware nor QEMU is needed.
 
+mod actuated;
 mod adaptive;
 mod axis;
 mod backlash;

@@ -1,6 +1,7 @@
 //! What a user could leave out or do in the wrong order with schedule and learners by hand, and cannot any more.
 
 use driveline::drive::Composition;
+use driveline::fault::Faults;
 use driveline::learning::Learnt;
 use driveline::observer::{GearedObserver, SemiImplicitObserver, TwoMassObserver};
 use driveline::prelude::*;
@@ -133,6 +134,26 @@ fn the_background_may_come_at_any_rate() {
         let found = Course::new(every).pairs(|_| {});
         assert!((found - friction(expected)).abs() < 0.005, "{every} ticks: {found}");
     }
+}
+
+/// Never calling `background` was silent. A second after the last call each tick says so, at any rate and in a closed
+/// brake, until the next call; ticks that did not run count.
+#[test]
+fn a_background_that_is_not_called_is_a_fault() {
+    let sample = Sample::si::<M>(0, 0.0, 0.0);
+    let mut drive = D::new(&CONFIG, 0);
+    for _ in 0..2 {
+        for tick in 0..150_000 {
+            let faults =
+                if tick % 3 == 0 { drive.hold(&CONFIG, 0, 0.0).faults } else { drive.tick(&CONFIG, &sample).faults };
+            assert_eq!(faults.contains(Faults::BACKGROUND_MISSING), tick >= 4_000, "{tick}: {faults}");
+        }
+        drive.background(&CONFIG, &Known::NOTHING);
+    }
+    drive.tick_after(&CONFIG, &sample, 4_000);
+    assert!(drive.tick(&CONFIG, &sample).faults.contains(Faults::BACKGROUND_MISSING));
+    drive.background(&CONFIG, &Known::NOTHING);
+    assert!(!drive.tick(&CONFIG, &sample).faults.contains(Faults::BACKGROUND_MISSING));
 }
 
 /// The constants of the schedule overwrote them. At the edge of the rope's range too.
