@@ -4,7 +4,9 @@
 use std::f64::consts::TAU;
 
 use driveline::configure::{GainSource, HasMechanism};
-use driveline::design::{Actuator, Encoder, GovernorDesign, LoadFeedForward, Rate, SpeedLoopDesign, SpeedLoopTuning};
+use driveline::design::{
+    Actuator, Encoder, GovernorDesign, LoadFeedForward, Rate, SpeedLoopDesign, SpeedLoopTuning, Spread, Tolerance,
+};
 use driveline::fluctuation::CycleMean;
 use driveline::governor::{CycleAverage, MechanismFeedForward, SpeedGovernor, SymmetricLimit};
 use driveline::machine::{DrivenMechanism, FourBar, Match, Mechanism, TwoMass};
@@ -47,6 +49,8 @@ impl Machine for Press {
     const SPEED_LOOP: SpeedLoopDesign =
         SpeedLoopDesign { damping: 0.0, ..Self::TWO_MASS.speed_loop(Rate::hz(Self::RATE_HZ), Self::TUNING) };
     const GAINS: GainSource = GainSource::Governor(OVER_STROKE);
+    /// The mean over a stroke is too late for a tenth of the shaft's damping.
+    const TOLERANCE: Tolerance = Tolerance { damping: Spread::NONE, ..Tolerance::USUAL };
     const RAMP: f64 = 100.0;
     const BASES: Bases = Bases::rigid(1_000.0, 134.0);
     const CYCLE: Cycle = Cycle { turns: RATIO as u32, cycles: 1 };

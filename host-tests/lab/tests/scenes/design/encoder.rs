@@ -3,7 +3,7 @@
 use std::io;
 
 use driveline::configure::{Machine, Rating};
-use driveline::design::{Encoder, Error, SpeedLoopTuning};
+use driveline::design::{Encoder, Error, SpeedLoopTuning, Spread, Tolerance};
 use driveline::drive::Drive;
 use driveline::governor::SpeedLoop;
 use driveline::machine::Chain;
@@ -39,6 +39,8 @@ impl<const WHAT: u32> Machine for Stated<WHAT> {
     };
     const RATE_HZ: u32 = Spindle::RATE_HZ;
     const TUNING: SpeedLoopTuning = Spindle::TUNING;
+    /// With damping as described: by the counts alone the observer is too fast for the least that the spindle may have.
+    const TOLERANCE: Tolerance = Tolerance { damping: Spread::NONE, ..Spindle::TOLERANCE };
     const RAMP: f64 = Spindle::RAMP;
     const BASES: Bases = Spindle::BASES;
     const SCREENING: Screening = Spindle::SCREENING;
