@@ -5,6 +5,8 @@
 pub struct Departure {
     /// Ratio of the shafts' stiffnesses.
     pub stiffness: f64,
+    /// Ratio of the shafts' dampings.
+    pub damping: f64,
     /// Ratio of the motor's inertia.
     pub motor_inertia: f64,
     /// Ratio of the load's inertia.
@@ -21,6 +23,14 @@ pub struct Departure {
 
 impl Departure {
     /// The machine as its drive was designed for.
-    pub const NONE: Self =
-        Self { stiffness: 1.0, motor_inertia: 1.0, load_inertia: 1.0, efficiency: 0.0, gap: 1.0, load: 1.0, rope: 1.0 };
+    pub const NONE: Self = Self {
+        stiffness: 1.0,
+        damping: 1.0,
+        motor_inertia: 1.0,
+        load_inertia: 1.0,
+        efficiency: 0.0,
+        gap: 1.0,
+        load: 1.0,
+        rope: 1.0,
+    };
 }

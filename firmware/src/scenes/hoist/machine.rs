@@ -60,6 +60,8 @@ impl<const RATE_HZ: u32> Machine for Hoist<RATE_HZ> {
         load_inertia: Spread::between(0.5 / 12.0, 13.0 / 12.0),
         stiffness: Spread::between(12.0 / 30.0, 12.0 / 5.0),
         torque: Spread::within(0.03),
+        // At a tenth a point between light loads on a short rope would be unstable in a corner.
+        damping: Spread::between(0.2, 2.0),
         ..Tolerance::USUAL
     };
     const RAMP: f64 = Self::RATING.speed.0 / 2.0;

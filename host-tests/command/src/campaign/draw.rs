@@ -47,6 +47,7 @@ impl Draw {
     pub fn departure(&self) -> Departure {
         Departure {
             stiffness: self.value(Factor::Stiffness),
+            damping: self.value(Factor::Damping),
             motor_inertia: self.value(Factor::MotorInertia),
             load_inertia: self.value(Factor::LoadInertia),
             efficiency: self.value(Factor::Efficiency),

@@ -169,17 +169,18 @@ fn plant(machine: &MachineFile, load: [(f64, f64); 4], by: &Departure) -> Result
     let mut twists = Vec::new();
     for (s, (shaft, inertia)) in shafts.iter().zip(&masses[1..]).enumerate() {
         let (stiffness, gap) = (shaft.stiffness * by.stiffness, shaft.gap * by.gap);
+        let damping = shaft.damping * by.damping;
         let of = if rope[s] { Shaft::rope(stiffness) } else { Shaft::elastic(stiffness) };
         let flank = if weight > 0.0 && !rope[s] { 0.5 * gap } else { 0.0 };
         twists.push(flank + weight / stiffness);
         let inertia = loaded(s + 1, *inertia);
-        let mut link = Link::shaft(s, s + 1, stiffness).damping(shaft.damping).gap(gap).elongated(twists[s]);
+        let mut link = Link::shaft(s, s + 1, stiffness).damping(damping).gap(gap).elongated(twists[s]);
         if efficiency[s] != [1.0; 2] {
             let [ahead, back] = departing(efficiency[s], by);
             known = known.efficiency(ahead).back_efficiency(back);
             link = link.efficiency(ahead).back_efficiency(back);
         }
-        known = known.shaft(of.damping(shaft.damping).gap(gap), inertia).viscous(viscous[s + 1]);
+        known = known.shaft(of.damping(damping).gap(gap), inertia).viscous(viscous[s + 1]);
         train = train.coordinate(Coordinate::new(inertia).viscous(viscous[s + 1]));
         train = train.link(if rope[s] { link.rope() } else { link });
     }

@@ -201,6 +201,7 @@ pub fn tolerance(machine: &MachineFile) -> Vec<String> {
         ("load_inertia", own.load_inertia, usual.load_inertia),
         ("stiffness", own.stiffness, usual.stiffness),
         ("torque", own.torque, usual.torque),
+        ("damping", own.damping, usual.damping),
     ];
     let spread = |(name, own, usual): (&str, Spread, Spread)| {
         (own != usual).then(|| format!("{name}: Spread::between({:?}, {:?})", own.min, own.max))

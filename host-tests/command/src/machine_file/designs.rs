@@ -400,6 +400,7 @@ impl MachineFile {
             offset: most(Factor::TorqueOffset),
             efficiency: most(Factor::Efficiency),
             gap: spread(Factor::Gap),
+            damping: self.range(Factor::Damping).map_or(Tolerance::USUAL.damping, |_| spread(Factor::Damping)),
             ..Tolerance::USUAL
         }
     }

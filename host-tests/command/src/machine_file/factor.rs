@@ -45,6 +45,8 @@ impl Factor {
 factors! {
     /// Stiffness of the shafts.
     Stiffness = "stiffness", "stiffness", "of nominal", 1.0;
+    /// Damping of the shafts.
+    Damping = "damping", "damping", "of nominal", 1.0;
     MotorInertia = "motor-inertia", "motor_inertia", "of nominal", 1.0;
     LoadInertia = "load-inertia", "load_inertia", "of nominal", 1.0;
     /// Efficiency of the gear, as a difference.
@@ -147,7 +149,7 @@ impl Factor {
     pub const fn possible(self) -> (f64, f64) {
         match self {
             Self::Stiffness | Self::MotorInertia | Self::LoadInertia | Self::Load | Self::Rope => (0.01, 100.0),
-            Self::Gap => (0.0, 100.0),
+            Self::Gap | Self::Damping => (0.0, 100.0),
             Self::TorqueConstant => (0.1, 10.0),
             Self::Efficiency => (-0.5, 0.05),
             Self::TorqueOffset => (-1.0, 1.0),

@@ -24,7 +24,8 @@ fn machine(damper: &str) -> String {
          stiffness = {STIFFNESS}\n[[element]]\nkind = \"gear\"\nratio = 2\n[[element]]\nkind = \"rotor\"\n\
          label = \"load\"\ninertia = {LOAD}\n[encoder]\nlines = 2048\n[control]\nrate_hz = 10000\n\
          [disturbance]\ntorque_accuracy = 1.0\n\
-         load_torque_step = 1.0\nwithin = 1.0\n[limits]\ntorque = 100.0\nspeed = 200.0\n[[damper]]\nat = \"load\"\n\
+         load_torque_step = 1.0\nwithin = 1.0\n[limits]\ntorque = 100.0\nspeed = 200.0\n\
+         [tolerance]\ndamping = 0\n[[damper]]\nat = \"load\"\n\
          inertia = {RING}\n{damper}"
     )
 }

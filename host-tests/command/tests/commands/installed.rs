@@ -26,6 +26,7 @@ fn the_installed_commands_are_the_designers() {
         "example",
         "export",
         "new",
+        "page",
         "rotor",
         "balancing",
         "identify",

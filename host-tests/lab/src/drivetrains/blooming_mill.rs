@@ -30,8 +30,8 @@ fn spindle_torque(plant: &Body) -> f64 {
 /// The chain with a rolling torque over time.
 fn chain(program: LoadProgram, by: &Departure) -> Result<Plant, PlantError> {
     Chain::motor(1.1e5 * by.motor_inertia)
-        .shaft(Shaft::elastic(1.2e9 * by.stiffness).damping(3.0e5), 1.0e4)
-        .shaft(Shaft::elastic(2.2e8 * by.stiffness).damping(1.0e5).gap(0.010 * by.gap), 2.2e4 * by.load_inertia)
+        .shaft(Shaft::elastic(1.2e9 * by.stiffness).damping(3.0e5 * by.damping), 1.0e4)
+        .shaft(Shaft::elastic(2.2e8 * by.stiffness).damping(1.0e5 * by.damping).gap(0.010 * by.gap), 2.2e4 * by.load_inertia)
         .coulomb(FRICTION)
         .program(program)
         .start(Start::Rest)
@@ -53,7 +53,7 @@ pub fn uncoupled(by: &Departure) -> Result<Scenario, PlantError> {
     let back = there.map(|speed| -speed);
     let speeds = [&there[..], &back, &there, &back, &[slow]].concat();
     let plant = Chain::motor(1.1e5 * by.motor_inertia)
-        .shaft(Shaft::elastic(1.2e9 * by.stiffness).damping(3.0e5), 1.0e4)
+        .shaft(Shaft::elastic(1.2e9 * by.stiffness).damping(3.0e5 * by.damping), 1.0e4)
         .coulomb(0.5 * FRICTION)
         .shaft(Shaft::elastic(2.2e5).damping(1.0e2), 22.0)
         .start(Start::Rest)

@@ -33,9 +33,9 @@ pub fn machine() -> Result<Machine, PlantError> {
 /// The converter as it is.
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let square = RATIO * RATIO;
-    let trunnion = Shaft::elastic(3.6e9 / square * by.stiffness).damping(1.0e7 / square).gap(0.3 * by.gap);
+    let trunnion = Shaft::elastic(3.6e9 / square * by.stiffness).damping(1.0e7 / square * by.damping).gap(0.3 * by.gap);
     let plant = Chain::motor(36.0 * by.motor_inertia)
-        .shaft(Shaft::elastic(2.0e5 * by.stiffness).damping(15.0), 4.0)
+        .shaft(Shaft::elastic(2.0e5 * by.stiffness).damping(15.0 * by.damping), 4.0)
         .shaft(trunnion, 1.2e7 / square * by.load_inertia)
         .coulomb(FRICTION)
         .program(LoadProgram::table(&[(1.0, 0.0), (2.0, BATH), (3.0, BATH), (5.0, -BATH), (6.5, -BATH), (8.5, 0.0)]))

@@ -42,7 +42,7 @@ fn chain(slack: f64, by: &Departure) -> Chain {
     let [stiffness, damping] = rope(by);
     let rope = Shaft::rope(stiffness).damping(damping);
     Chain::motor(0.62 * by.motor_inertia)
-        .shaft(Shaft::elastic(MOTOR_SHAFT * by.stiffness).damping(2.0), 0.08)
+        .shaft(Shaft::elastic(MOTOR_SHAFT * by.stiffness).damping(2.0 * by.damping), 0.08)
         .efficiency(EFFICIENCY + by.efficiency)
         .shaft(rope.gap(slack), MASS * TRAVEL * TRAVEL * by.load)
 }
@@ -50,7 +50,7 @@ fn chain(slack: f64, by: &Departure) -> Chain {
 /// Stiffness and damping of the rope at the motor.
 fn rope(by: &Departure) -> [f64; 2] {
     let square = TRAVEL * TRAVEL;
-    [ROPE * square * by.stiffness / by.rope, ROPE_DAMPING * square / by.rope]
+    [ROPE * square * by.stiffness / by.rope, ROPE_DAMPING * square * by.damping / by.rope]
 }
 
 /// The load on its rope as the brake holds it: the rope carries the weight, and the drive is about to.

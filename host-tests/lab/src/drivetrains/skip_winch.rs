@@ -79,9 +79,9 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let [motor_shaft, elastic] = [MOTOR_SHAFT, ROPE].map(|stiffness| stiffness * by.stiffness);
     let hanging = || {
         Chain::motor(20.0 * by.motor_inertia)
-            .shaft(Shaft::elastic(motor_shaft).damping(60.0), 1500.0 / (15.0 * 15.0))
+            .shaft(Shaft::elastic(motor_shaft).damping(60.0 * by.damping), 1500.0 / (15.0 * 15.0))
             .efficiency(0.94 + by.efficiency)
-            .shaft(Shaft::rope(elastic).damping(ROPE_DAMPING), mass)
+            .shaft(Shaft::rope(elastic).damping(ROPE_DAMPING * by.damping), mass)
             .load(weight)
             // As the brake holds it: the rope carries the weight.
             .start(Start::Given { twists: vec![weight / motor_shaft, weight / elastic], speeds: vec![0.0; 3] })

@@ -44,7 +44,7 @@ pub fn machine() -> Result<Machine, PlantError> {
 /// The spindle as it is.
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let spindle_with = |program: LoadProgram| {
-        let shaft = Shaft::elastic(stiffness() * by.stiffness).damping(0.3);
+        let shaft = Shaft::elastic(stiffness() * by.stiffness).damping(0.3 * by.damping);
         Chain::motor(0.012 * by.motor_inertia).shaft(shaft, 0.004 * by.load_inertia).program(program).build()
     };
     let run_up = vec![(0.01, Action::Release), (0.01, Action::Setpoint(Spindle::RATING.speed.0))];

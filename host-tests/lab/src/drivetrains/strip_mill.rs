@@ -33,9 +33,9 @@ pub fn machine() -> Result<Machine, PlantError> {
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let stand = |program: LoadProgram| {
         Chain::motor(3000.0 * by.motor_inertia)
-            .shaft(Shaft::elastic(6.0e7 * by.stiffness).damping(1.0e4), 300.0)
-            .shaft(Shaft::elastic(5.0e7 * by.stiffness).damping(1.0e4), 400.0)
-            .shaft(Shaft::elastic(6.0e6 * by.stiffness).damping(4.0e3), 2500.0 * by.load_inertia)
+            .shaft(Shaft::elastic(6.0e7 * by.stiffness).damping(1.0e4 * by.damping), 300.0)
+            .shaft(Shaft::elastic(5.0e7 * by.stiffness).damping(1.0e4 * by.damping), 400.0)
+            .shaft(Shaft::elastic(6.0e6 * by.stiffness).damping(4.0e3 * by.damping), 2500.0 * by.load_inertia)
             .coulomb(4.0e3)
             .program(program)
             .build()
