@@ -145,7 +145,7 @@ fn a_machine_file_has_campaigns() {
         "{sentence}"
     );
     let refused = campaign(folder.path(), &["axis.toml", "--drive", "f32/rigid/10000"]);
-    assert!(String::from_utf8_lossy(&refused.stderr).contains("expected two-mass, rigid or plain"));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("expected two-mass, semi-implicit, rigid or plain"));
 }
 
 #[test]
@@ -220,7 +220,7 @@ fn a_lack_of_both_observers_is_stated() {
     for shown in [&shown, &designed] {
         assert!(shown.contains("neither has the margins: with one mass, the speed loop"), "{shown}");
     }
-    assert!(shown.contains("warning: the speed loop with its observer is unstable at its tolerances"), "{shown}");
+    assert!(shown.contains("warning: the speed loop with its observer is unstable at the tolerance"), "{shown}");
 }
 
 /// A scene, its drives, and a file of a machine of the same name have results of their own.
