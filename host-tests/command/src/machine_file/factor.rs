@@ -45,8 +45,6 @@ impl Factor {
 factors! {
     /// Stiffness of the shafts.
     Stiffness = "stiffness", "stiffness", "of nominal", 1.0;
-    /// Damping of the shafts.
-    Damping = "damping", "damping", "of nominal", 1.0;
     MotorInertia = "motor-inertia", "motor_inertia", "of nominal", 1.0;
     LoadInertia = "load-inertia", "load_inertia", "of nominal", 1.0;
     /// Efficiency of the gear, as a difference.
@@ -75,6 +73,8 @@ factors! {
     Jitter = "jitter", "jitter", "s", 0.0;
     /// Share of the ticks that do not run.
     MissedTicks = "missed-ticks", "missed_ticks", "of all", 0.0;
+    /// Damping of the shafts.
+    Damping = "damping", "damping", "of nominal", 1.0;
 }
 
 impl Factor {
