@@ -35,8 +35,9 @@ fn fixed_point_stays_within_its_bound_of_real_numbers() {
             let found = measured(&subject, kind, if is_fast { 400_000 } else { 20_000 }).unwrap();
             for (k, (bound, found)) in bounds.error.into_iter().zip(found).enumerate() {
                 assert!(found <= bound, "{name} {kind:?}, output {k}: {found:e} of {bound:e}");
-                // a run this short does not reach the slow modes of the others
-                assert!(!is_fast || bound < 4.0 * found, "{name} {kind:?}, output {k}: {found:e} of {bound:e}");
+                // A run this short does not reach the slow modes of the others. The search takes the remainder of the turn
+                // as it comes, the bound at its worst: in two million ticks up to 7 on these.
+                assert!(!is_fast || bound < 8.0 * found, "{name} {kind:?}, output {k}: {found:e} of {bound:e}");
                 compared += 1;
             }
         }
