@@ -51,7 +51,7 @@ impl Drive {
             "fixed" => Words::Fixed,
             _ => return Err(refused(format!("there is no number `{number}`; there are f32, fixed"))),
         };
-        let machine = read(&file).and_then(|machine| Ok(machine.with_dampers())).map_err(refused)?.map_err(refused)?;
+        let machine = read(&file).map(|machine| machine.with_dampers()).map_err(refused)?.map_err(refused)?;
         let two = machine.two_masses().ok_or_else(|| refused(format!("no drive can be made: {NO_SHAFT}")))?;
         let designs = Designs::of(&machine, &two).map_err(refused)?;
         let names = FileObserver::ALL.map(FileObserver::name).join(", ");

@@ -1,6 +1,6 @@
 //! A composed scene: the words of the link on one side, a drive of any parts on the other.
 
-use driveline::drive::{Composition, ConfigOf, Drive, MADE_UP};
+use driveline::drive::{Composition, ConfigOf, Drive};
 use driveline::governor::SpeedLoop;
 use driveline::number::{Number, Part};
 use driveline::observer::Observer;
@@ -27,7 +27,7 @@ pub trait OverWords: Composition {
     #[cfg(not(target_os = "none"))]
     fn make_up_before(&mut self, config: &ConfigOf<Self>, input: &Input, ticks: u32) -> u32 {
         let faults = self.make_up(config, Self::Number::from_word(input.torque), ticks);
-        if ticks > MADE_UP {
+        if ticks > driveline::drive::MADE_UP {
             self.observer_mut().resync(input.angle);
         }
         faults.bits()
