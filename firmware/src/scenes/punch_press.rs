@@ -25,8 +25,8 @@ use driveline::drive::{ConfigOf, Drive};
 use driveline::fluctuation::{Balance, CycleMean, Flywheel, Ripple, Series, Summed, Waveform, WaveformConfig, Window};
 use driveline::governor::{CycleAverage, SpeedGovernor, SpeedLoop, SymmetricLimit};
 use driveline::machine::{
-    Chain, CrankSlider, DrivenMechanism, Damping, Efficiency, Inertia, Length, Mass, Match, Mechanism, Ratio, Speed, Stiffness, Torque,
-    TwoMass,
+    Chain, CrankSlider, Damping, DrivenMechanism, Efficiency, Inertia, Length, Mass, Match, Mechanism, Ratio, Speed,
+    Stiffness, Torque, TwoMass,
 };
 use driveline::number::Number;
 use driveline::observer;

@@ -31,7 +31,10 @@ fn spindle_torque(plant: &Body) -> f64 {
 fn chain(program: LoadProgram, by: &Departure) -> Result<Plant, PlantError> {
     Chain::motor(1.1e5 * by.motor_inertia)
         .shaft(Shaft::elastic(1.2e9 * by.stiffness).damping(3.0e5 * by.damping), 1.0e4)
-        .shaft(Shaft::elastic(2.2e8 * by.stiffness).damping(1.0e5 * by.damping).gap(0.010 * by.gap), 2.2e4 * by.load_inertia)
+        .shaft(
+            Shaft::elastic(2.2e8 * by.stiffness).damping(1.0e5 * by.damping).gap(0.010 * by.gap),
+            2.2e4 * by.load_inertia,
+        )
         .coulomb(FRICTION)
         .program(program)
         .start(Start::Rest)
