@@ -46,6 +46,7 @@ mod tick_count;
 
 pub use actuated::{Actuated, ActuatedConfig};
 pub use axis::MADE_UP;
+pub(crate) use composition::handed_on;
 pub use composition::{Composition, ConfigOf, GovernorConfigOf, ObserverConfigOf, VibrationOf};
 pub use recorder::Recorded;
 pub use tick_count::TickCount;

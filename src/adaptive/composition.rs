@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use super::{Adaptive, AdaptiveConfig, INTERRUPTED, Learning, Scheduling};
 use crate::configure::{Configure, Machine, Units};
-use crate::drive::{Composition, ConfigOf, GovernorConfigOf, MADE_UP, ObserverConfigOf, VibrationOf};
+use crate::drive::{Composition, ConfigOf, GovernorConfigOf, MADE_UP, ObserverConfigOf, VibrationOf, handed_on};
 use crate::fault::Faults;
 use crate::number::Part;
 use crate::sample::{Command, Estimate, Sample};
@@ -83,6 +83,8 @@ where
     type Fluctuation = D::Fluctuation;
     type Balancer = D::Balancer;
 
+    handed_on!(mut);
+
     #[inline(always)]
     fn new(config: &Self::Config, angle: u32) -> Self {
         Adaptive::new(config, angle)
@@ -139,46 +141,12 @@ where
         D::parts(&mut config.drive)
     }
 
-    fn observer(&self) -> &Self::Observer {
-        self.drive.observer()
-    }
-
-    fn observer_mut(&mut self) -> &mut Self::Observer {
-        self.drive.observer_mut()
-    }
-
-    fn governor(&self) -> &Self::Governor {
-        self.drive.governor()
-    }
-
-    fn governor_mut(&mut self) -> &mut Self::Governor {
-        self.drive.governor_mut()
-    }
-
-    fn commanded(&self) -> D::Number {
-        self.drive.commanded()
-    }
-
     fn vibration(&mut self, _: &Self::Config, vibration: &VibrationOf<Self>) {
         self.drive.vibration(&self.config, vibration);
-    }
-
-    fn vibration_missing(&mut self, faults: Faults) {
-        self.drive.vibration_missing(faults);
     }
 
     #[inline(always)]
     fn estimate(&self, config: &Self::Config) -> Estimate<D::Number> {
         Adaptive::estimate(self, config)
-    }
-
-    #[inline(always)]
-    fn angle(&self) -> u32 {
-        self.drive.angle()
-    }
-
-    #[inline(always)]
-    fn is_lost(&self) -> bool {
-        self.drive.is_lost()
     }
 }

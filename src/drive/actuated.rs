@@ -1,5 +1,6 @@
 //! A drive whose torque comes from an actuator: a fuel rack, a steam valve.
 
+use super::composition::handed_on;
 use super::{Composition, ConfigOf, GovernorConfigOf, ObserverConfigOf, VibrationOf};
 use crate::configure::{Configure, GainSource, HasActuator, Machine};
 use crate::design::Actuator;
@@ -168,6 +169,8 @@ impl<D: Composition<Governor: HasRunSequence>, const LAGS: usize, const RING: us
     type Fluctuation = D::Fluctuation;
     type Balancer = D::Balancer;
 
+    handed_on!(mut);
+
     #[inline(always)]
     fn new(config: &Self::Config, angle: u32) -> Self {
         Actuated::new(config, angle)
@@ -216,46 +219,12 @@ impl<D: Composition<Governor: HasRunSequence>, const LAGS: usize, const RING: us
         D::parts(&mut config.drive)
     }
 
-    fn observer(&self) -> &Self::Observer {
-        self.drive.observer()
-    }
-
-    fn observer_mut(&mut self) -> &mut Self::Observer {
-        self.drive.observer_mut()
-    }
-
-    fn governor(&self) -> &Self::Governor {
-        self.drive.governor()
-    }
-
-    fn governor_mut(&mut self) -> &mut Self::Governor {
-        self.drive.governor_mut()
-    }
-
-    fn commanded(&self) -> D::Number {
-        self.drive.commanded()
-    }
-
     fn vibration(&mut self, config: &Self::Config, vibration: &VibrationOf<Self>) {
         self.drive.vibration(&config.drive, vibration);
-    }
-
-    fn vibration_missing(&mut self, faults: Faults) {
-        self.drive.vibration_missing(faults);
     }
 
     #[inline(always)]
     fn estimate(&self, config: &Self::Config) -> Estimate<D::Number> {
         Actuated::estimate(self, config)
-    }
-
-    #[inline(always)]
-    fn angle(&self) -> u32 {
-        self.drive.angle()
-    }
-
-    #[inline(always)]
-    fn is_lost(&self) -> bool {
-        self.drive.is_lost()
     }
 }

@@ -70,6 +70,49 @@ pub trait Composition: Sized {
     fn is_lost(&self) -> bool;
 }
 
+/// What a drive around another hands on unchanged: what it reads, and with `mut` what it lets change.
+macro_rules! handed_on {
+    () => {
+        fn observer(&self) -> &Self::Observer {
+            self.drive.observer()
+        }
+
+        fn governor(&self) -> &Self::Governor {
+            self.drive.governor()
+        }
+
+        fn commanded(&self) -> D::Number {
+            self.drive.commanded()
+        }
+
+        fn vibration_missing(&mut self, faults: Faults) {
+            self.drive.vibration_missing(faults);
+        }
+
+        #[inline(always)]
+        fn angle(&self) -> u32 {
+            self.drive.angle()
+        }
+
+        #[inline(always)]
+        fn is_lost(&self) -> bool {
+            self.drive.is_lost()
+        }
+    };
+    (mut) => {
+        handed_on!();
+
+        fn observer_mut(&mut self) -> &mut Self::Observer {
+            self.drive.observer_mut()
+        }
+
+        fn governor_mut(&mut self) -> &mut Self::Governor {
+            self.drive.governor_mut()
+        }
+    };
+}
+pub(crate) use handed_on;
+
 /// The constants of a drive, from its type.
 pub type ConfigOf<D> = <D as Composition>::Config;
 

@@ -4,6 +4,7 @@
 //! such a state and gives the same commands, bit for bit, on the desk as on the board. At the first of the tripping
 //! faults the record is kept as it is, with the fault, until [`Recorded::release`].
 
+use super::composition::handed_on;
 use super::{Composition, ConfigOf, GovernorConfigOf, ObserverConfigOf, VibrationOf};
 use crate::axis::TRIPPING;
 use crate::fault::Faults;
@@ -160,6 +161,8 @@ impl<D: Composition + Clone, const K: usize> Composition for Recorded<D, K> {
     type Fluctuation = D::Fluctuation;
     type Balancer = D::Balancer;
 
+    handed_on!();
+
     fn new(config: &Self::Config, angle: u32) -> Self {
         let drive = D::new(config, angle);
         let block = Block { start: drive.clone(), entries: [Entry::default(); K], length: 0 };
@@ -210,24 +213,12 @@ impl<D: Composition + Clone, const K: usize> Composition for Recorded<D, K> {
         D::parts(config)
     }
 
-    fn observer(&self) -> &Self::Observer {
-        self.drive.observer()
-    }
-
     fn observer_mut(&mut self) -> &mut Self::Observer {
         self.drive_mut().observer_mut()
     }
 
-    fn governor(&self) -> &Self::Governor {
-        self.drive.governor()
-    }
-
     fn governor_mut(&mut self) -> &mut Self::Governor {
         self.drive_mut().governor_mut()
-    }
-
-    fn commanded(&self) -> D::Number {
-        self.drive.commanded()
     }
 
     #[inline(always)]
@@ -235,22 +226,8 @@ impl<D: Composition + Clone, const K: usize> Composition for Recorded<D, K> {
         self.drive.vibration(config, vibration);
     }
 
-    fn vibration_missing(&mut self, faults: Faults) {
-        self.drive.vibration_missing(faults);
-    }
-
     #[inline(always)]
     fn estimate(&self, config: &Self::Config) -> Estimate<D::Number> {
         self.drive.estimate(config)
-    }
-
-    #[inline(always)]
-    fn angle(&self) -> u32 {
-        self.drive.angle()
-    }
-
-    #[inline(always)]
-    fn is_lost(&self) -> bool {
-        self.drive.is_lost()
     }
 }
