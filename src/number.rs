@@ -99,8 +99,9 @@ pub trait Number:
 }
 
 /// Binary places by which a turn in fixed point is coarser than 2^-32 turns: it has a resolution of 2^6 of them (0.09
-/// urad), and its remainder that of an angle. A turn of the base of the speed in a tick has a factor of 2^-32 in 16 to 20 places, which is its error: finer
-/// turns leave no room for a speed of two turns in a tick, or for a twist of 25 rad.
+/// urad), and its remainder that of an angle. A turn of the base of the speed in a tick has a factor of 2^-32 in 16 to
+/// 20 places, which is its error: finer turns leave no room for a speed of two turns in a tick, or for a twist of 25
+/// rad.
 pub const TURN_SHIFT: u32 = 6;
 
 /// Binary places by which an innovation is shifted up before its gains, which then range over +-16 units in the last
