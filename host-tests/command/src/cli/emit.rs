@@ -172,7 +172,7 @@ pub(super) fn written(elements: &[Part], indent: &str) -> String {
 /// The library's words that an element is written with.
 const fn words_of(element: &Element) -> &'static [&'static str] {
     match element {
-        Element::Motor { .. } | Element::Rotor { .. } => &["Inertia"],
+        Element::Motor { .. } | Element::Rotor { .. } | Element::Mechanism { .. } => &["Inertia"],
         Element::Shaft { .. } => &["Stiffness", "Damping"],
         Element::Gear { .. } => &["Ratio", "Efficiency"],
         Element::Section { .. } => &["Section", "Length", "Diameter", "ShearModulus", "Damping"],

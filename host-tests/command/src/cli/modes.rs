@@ -9,6 +9,7 @@ mod figures;
 mod network;
 mod page;
 mod response;
+mod starts;
 mod tables;
 mod train;
 

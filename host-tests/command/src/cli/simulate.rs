@@ -2,6 +2,7 @@
 
 mod result;
 mod starting_time;
+mod swing;
 
 use std::path::PathBuf;
 
@@ -166,6 +167,7 @@ fn tables(simulation: &Simulation) -> Vec<Section> {
         steady.row([cycle.name.clone()].into_iter().chain(numbers));
         let text = format!("Repeats after {} cycles from the end of the run.", cycle.cycles);
         all.push(Section::new("Steady cycle", text, steady));
+        all.push(cycle.swing.table(cycle.delta));
     }
     if let Some(starting) = &simulation.starting {
         let mut table =

@@ -11,9 +11,10 @@ use serde::Serialize;
 use super::diagnostic::Diagnostic;
 use super::quantity::Quantity;
 use super::table::Table;
+use super::train::mean_inertia;
 
 /// The kinds of elements, as a message lists them.
-pub const KINDS: &str = "\"motor\", \"shaft\", \"section\", \"rotor\", \"crank\", \"gear\", \"worm\", \"planetary\", \
+pub const KINDS: &str = "\"motor\", \"shaft\", \"section\", \"rotor\", \"crank\", \"mechanism\", \"gear\", \"worm\", \"planetary\", \
     \"belt\", \"drum\", \"screw\", \
                          \"rope\", \"lifted\", \"driven\", \"swinging\", \"slack\" or \"backlash\"";
 
@@ -80,6 +81,11 @@ pub enum Element {
         rod_inertia: f64,
         /// Mass of the slider (kg).
         slider: f64,
+    },
+    /// A four-bar, toggle, cam or table of inertias on the present shaft, as the mean of its inertia.
+    Mechanism {
+        /// Inertia of its crank, and the mean of what that moves (kg m2).
+        inertia: f64,
     },
     /// A gear; what follows turns `ratio` times slower.
     Gear {
@@ -237,6 +243,9 @@ impl Element {
                 rod_inertia: table.number_or("rod_inertia", Quantity::PART_INERTIA, 0.0)?,
                 slider: table.number("slider", Quantity::PART_MASS)?,
             },
+            "mechanism" => Self::Mechanism {
+                inertia: table.number_or("inertia", Quantity::PART_INERTIA, 0.0)? + mean_inertia(&mut table)?,
+            },
             "worm" => Self::Worm {
                 ratio: table.number("ratio", Quantity::RATIO)?,
                 efficiency: table.number("efficiency", Quantity::EFFICIENCY)?,
@@ -298,6 +307,7 @@ impl Element {
             Self::Shaft { .. } => "shaft",
             Self::Section { .. } => "section",
             Self::Crank { .. } => "crank",
+            Self::Mechanism { .. } => "mechanism",
             Self::Worm { .. } => "worm",
             Self::Planetary { .. } => "planetary",
             Self::Belt { .. } => "belt",
@@ -355,7 +365,7 @@ impl Element {
     pub(super) fn append(self, chain: Chain) -> Result<Chain, Error> {
         Ok(match self {
             Self::Motor { inertia, .. } => Chain::motor(Inertia(inertia)),
-            Self::Rotor { inertia, .. } => chain.rotor(Inertia(inertia)),
+            Self::Rotor { inertia, .. } | Self::Mechanism { inertia } => chain.rotor(Inertia(inertia)),
             Self::Shaft { stiffness, damping, .. } => {
                 self.heavy(chain, |chain| chain.shaft(Stiffness(stiffness), Damping(damping)))
             }
@@ -448,7 +458,7 @@ impl Element {
     pub fn rust(self) -> String {
         match self {
             Self::Motor { inertia, .. } => format!("Chain::motor(Inertia({inertia:?}))"),
-            Self::Rotor { inertia, .. } => format!(".rotor(Inertia({inertia:?}))"),
+            Self::Rotor { inertia, .. } | Self::Mechanism { inertia } => format!(".rotor(Inertia({inertia:?}))"),
             Self::Shaft { stiffness, damping, .. } => {
                 self.heavy_rust(&format!(".shaft(Stiffness({stiffness:?}), Damping({damping:?}))"))
             }

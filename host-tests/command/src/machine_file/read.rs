@@ -417,7 +417,11 @@ fn branches(
     let turning = |part: &Part, station: &Station| {
         let turns = matches!(
             part.element,
-            Element::Motor { .. } | Element::Rotor { .. } | Element::Crank { .. } | Element::Planetary { .. }
+            Element::Motor { .. }
+                | Element::Rotor { .. }
+                | Element::Crank { .. }
+                | Element::Mechanism { .. }
+                | Element::Planetary { .. }
         );
         station.mass.filter(|_| turns).map(|mass| (part.label.clone(), mass, station.ratio))
     };

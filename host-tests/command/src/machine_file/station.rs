@@ -81,6 +81,7 @@ pub(crate) fn stations(elements: &[Part]) -> Vec<Station> {
             Element::Motor { .. }
             | Element::Rotor { .. }
             | Element::Crank { .. }
+            | Element::Mechanism { .. }
             | Element::Planetary { .. }
             | Element::Lifted { .. }
             | Element::Driven { .. } => (Some(last), None),

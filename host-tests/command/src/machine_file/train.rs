@@ -65,9 +65,9 @@
 //! `starting_speed`); `modes` does without it |
 
 mod coordinate;
-mod four_bar;
 mod friction;
 mod link;
+mod mechanism;
 mod reading;
 mod spur_pair;
 mod stiffness;
@@ -87,6 +87,7 @@ use super::source::Source;
 use super::table::Table;
 use driveline_solver::plant::train::{Motion, StrokeLoad, Train};
 use driveline_solver::plant::{Place, PlantError};
+pub(super) use mechanism::mean_inertia;
 use reading::{Joints, Reading};
 pub(crate) use stiffness::too_stiff;
 

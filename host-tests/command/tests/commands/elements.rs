@@ -2,8 +2,8 @@
 
 use cargo_driveline::machine_file::parse;
 use driveline::machine::{
-    Belt, Chain, CrankSlider, Damping, Diameter, Efficiency, Gap, Inertia, Length, LinearDamping, Mass, Member,
-    Planetary, PlanetaryGear, Ratio, Section, ShearModulus, Stiffness, Train, stepped,
+    Belt, Chain, CrankSlider, Damping, Diameter, Efficiency, FourBar, Gap, Inertia, Length, LinearDamping, Mass,
+    Mechanism, Member, Planetary, PlanetaryGear, Ratio, Section, ShearModulus, Stiffness, Toggle, Train, stepped,
 };
 
 use crate::references::{case, close, meets};
@@ -442,4 +442,40 @@ fn modes_take_a_chain_of_any_length() {
         close(mode.frequency, 40.0 * (f64::from(m) * std::f64::consts::PI / (2 * n) as f64).sin(), 1e-13);
     }
     assert_eq!(vibration.resonances.len(), n - 1);
+}
+
+/// The mean inertia of each law, by the full solver's ways, is that of the library's table.
+#[test]
+fn mechanisms_of_every_law() {
+    let bars = "crank = 0.1, coupler = 0.35, rocker = 0.3, ground = 0.4, coupler_mass = 4.0, rocker_inertia = 2.5";
+    let library = FourBar {
+        coupler_mass: Mass(4.0),
+        coupler_centre: Length(0.175),
+        ..FourBar::massless(Length(0.1), Length(0.35), Length(0.3), Length(0.4), Inertia(2.5))
+    };
+    let knee = Toggle { bars: library, link: Length(0.5), direction: 0.4, slider: Mass(30.0) };
+    let cases = [
+        (format!("four_bar = {{ {bars} }}"), Mechanism::four_bar(&library)),
+        (format!("toggle = {{ {bars}, link = 0.5, direction = 0.4, slider_mass = 30.0 }}"), Mechanism::toggle(&knee)),
+        (
+            "cam = { lift = [0.0, 0.02, 0.05, 0.04, 0.01], mass = 40.0 }".to_owned(),
+            Mechanism::cam(&[0.0, 0.02, 0.05, 0.04, 0.01], Mass(40.0)),
+        ),
+        ("inertia_table = [3.0, 4.0, 2.0]".to_owned(), Mechanism::table(&[3.0, 4.0, 2.0], &[0.0; 3])),
+    ];
+    for (law, mechanism) in &cases {
+        let read = chain(&[
+            MOTOR,
+            "kind = \"shaft\"\nstiffness = 850.0",
+            &format!("kind = \"mechanism\"\ninertia = 0.4\n{law}"),
+        ])
+        .unwrap();
+        // the solver's series end where their coefficients are below 1e-10
+        close(read.masses()[1], 0.4 + mechanism.mean_inertia().0, 1e-9);
+    }
+    let refused = |law: &str| chain(&[MOTOR, &format!("kind = \"mechanism\"\n{law}")]).unwrap_err();
+    assert!(refused("inertia = 1.0").contains("mechanism"), "{}", refused("inertia = 1.0"));
+    assert!(refused(&format!("{}\n{}", cases[0].0, cases[3].0)).contains("mechanism"));
+    assert!(refused("inertia_table = [1.0, 2.0]").contains("inertia_table"));
+    assert!(refused("cam = { lift = [0.0, 0.1, 0.2], mass = 1.0, friction = 2.0 }").contains("friction"));
 }

@@ -143,6 +143,11 @@ fn free_forces_of_one_cylinder_behind_a_gear() {
             assert!((number(&found["engine"]["orders"][order][part]) - 0.5 * force).abs() < 1e-5 * first, "{found}");
         }
     }
+    // half of m r opposite to the throw each way; with half of the mass as counterweight the backward half is left
+    for shaft in found["engine"]["orders"][0]["balance_shafts"].as_array().unwrap() {
+        assert!((number(&shaft[0]) - 0.5 * 0.5 * 0.05).abs() < 1e-9 && (number(&shaft[1]).abs() - 149.5).abs() < 1e-9);
+    }
+    assert!((number(&found["engine"]["counterweighted"]) - 0.5 * first).abs() < 1e-6 * first);
     assert!(page.contains("fire at 329.5 degrees"), "{page}");
     let (low, high) = (&found["critical"][0], found["critical"].as_array().unwrap().last().unwrap());
     assert!(number(&low["speed"]) < number(&high["speed"]));

@@ -21,4 +21,5 @@ mod replay;
 mod rotor;
 mod simulate;
 mod starting_time;
+mod starts;
 mod tune;

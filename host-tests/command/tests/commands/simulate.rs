@@ -408,6 +408,36 @@ fn losses_without_a_shaft_are_refused_by_name() {
     assert!(said.contains("gearbox") && said.contains("no shaft before or behind it"), "{said}");
 }
 
+/// Drums of constant inertia under a torque of twice a turn, `M cos 2 phi`: `J w^2/2` swings by `2 M/2`, and J as
+/// much as is missing has the delta that the class permits.
+#[test]
+fn the_swing_of_the_energy_and_the_flywheel_are_those_of_the_closed_form() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("drum.toml");
+    for k in 0..20 {
+        let (inertia, swing, speed) = (0.5 * 1.2_f64.powi(k), 20.0 * 1.3_f64.powi(k), 20.0 + f64::from(k));
+        let text = format!(
+            "name = \"drum\"\n[[coordinate]]\nname = \"drum\"\ninertia = {inertia:?}\nspeed = {speed:?}\n[[torque]]\n\
+             on = \"drum\"\nkind = \"orders\"\nharmonics = [[2.0, {swing:?}, 0.0]]\n[run]\ntime = 0.1\nstep = \
+             0.01\ncycle = \"drum\"\n"
+        );
+        std::fs::write(&file, &text).unwrap();
+        let output = simulate(&[file.to_str().unwrap(), "--json"]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let cycle = &found["cycle"];
+        let number = |value: &serde_json::Value| value.as_f64().unwrap();
+        assert!((number(&cycle["swing"]["energy"]) / swing - 1.0).abs() < 1e-6, "{cycle}");
+        let mean = 0.5 * (number(&cycle["greatest"]) + number(&cycle["least"]));
+        for class in cycle["swing"]["classes"].as_array().unwrap() {
+            for (permissible, missing) in [0, 1].map(|end| (&class["permissible"][end], &class["missing"][end])) {
+                let expected = (swing / (mean * mean * number(permissible)) - inertia).max(0.0);
+                assert!((number(missing) - expected).abs() < 1e-6 * (expected + inertia), "{class} {expected}");
+            }
+        }
+    }
+}
+
 /// A file of one crank with its run, and what is put in for the mechanism and the torque over its stroke.
 fn press(mechanism: &str, stroke: &str) -> String {
     format!(

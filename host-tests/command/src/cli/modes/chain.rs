@@ -10,6 +10,7 @@ use super::damped::DampedVibration;
 use super::damper::{Damped, dampers};
 use super::engine::{FreeForces, excite, free};
 use super::response::Response;
+use super::starts::{Starts, starts};
 use crate::cli::Failure;
 use crate::machine_file::MachineFile;
 
@@ -36,6 +37,8 @@ pub struct Vibration {
     pub damped: Vec<DampedVibration>,
     /// The two masses that can stand for it.
     pub reductions: Vec<Reduction>,
+    /// Dynamic factors of starts; `null` without a shaft.
+    pub starts: Option<Starts>,
     /// Speeds of the motor at which an excitation meets a natural frequency, the lowest first.
     pub critical: Vec<Critical>,
     /// Ranges of the motor's speed that it must not dwell in (rad/s), rising and apart.
@@ -191,6 +194,7 @@ impl Vibration {
             dampers: dampers(machine, &modes, &response),
             resonances: modes.omega.iter().zip(&modes.shapes).map(resonance).collect(),
             damped: DampedVibration::all(&decays),
+            starts: starts(machine),
             reductions: reductions(machine, &shafts, &modes.omega, &antiresonances),
             antiresonances,
             sensitivity: sensitivity.iter().map(leaving).collect(),

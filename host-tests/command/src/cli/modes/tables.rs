@@ -7,7 +7,7 @@ use driveline_report::{Section, Table};
 
 use super::campbell::{barred_speeds, critical};
 use super::chain::{KEPT, Leaving, Reduction, Vibration};
-use super::{damped, damper, engine};
+use super::{damped, damper, engine, starts};
 
 /// Most masses whose amplitudes have a column.
 const SHOWN: usize = 24;
@@ -60,6 +60,7 @@ pub fn tables(vibration: &Vibration) -> Vec<Section> {
     all.extend(vibration.engine.as_ref().map(engine::table));
     all.extend(damper::table(&vibration.dampers));
     all.extend(reductions(&vibration.reductions));
+    all.extend(vibration.starts.as_ref().map(starts::table));
     if !vibration.sensitivity.is_empty() {
         all.push(sensitivity(&vibration.sensitivity));
     }

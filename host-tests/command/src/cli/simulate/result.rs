@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use super::starting_time::{StartingTime, is_reached};
+use super::swing::Swing;
 use crate::cli::{Failure, Progress};
 use crate::machine_file::TrainFile;
 use driveline_report::format::{counted, significant};
@@ -100,6 +101,8 @@ pub struct Steady {
     pub proof: Option<(f64, f64)>,
     /// Why the cycle is not proven.
     pub not_proven: Option<String>,
+    /// Swing of the kinetic energy over the cycle, and the flywheel for each class of machine.
+    pub swing: Swing,
 }
 
 /// Extremes of a speed (rad/s or m/s).
@@ -373,9 +376,10 @@ fn steady(
         )));
     };
     let Cycle { greatest, least, time, mean, cycles } = cycle;
+    let swing = Swing::of(motion.clone(), at, &cycle);
     let proof = if proven { closed(motion, at, turns, says) } else { Err("the proof was left out".to_owned()) };
     let (proof, not_proven) = proof.map_or_else(|reason| (None, Some(reason)), |proof| (Some(proof), None));
-    Ok(Steady { name, delta: cycle.delta(), greatest, least, mean, time, cycles, proof, not_proven })
+    Ok(Steady { name, delta: cycle.delta(), greatest, least, mean, time, cycles, proof, not_proven, swing })
 }
 
 /// Proves a cycle: it comes back to 1e-8 of the peaks, and a second integrator runs it alike.

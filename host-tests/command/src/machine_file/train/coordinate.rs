@@ -2,11 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use driveline_solver::plant::train::{
-    Coordinate, Crank, FourBarPins, Harmonic, Orders, Pins, StrokeLoad, Toggle, rubbing,
-};
+use driveline_solver::plant::train::{Coordinate, Crank, FourBarPins, Orders, Pins, StrokeLoad, rubbing};
 
-use super::four_bar::four_bar;
+use super::mechanism::{self, even, four_bar, inertia, toggle};
 use super::reading::{Joints, Reading, fresh};
 use crate::machine_file::diagnostic::Diagnostic;
 use crate::machine_file::quantity::Quantity;
@@ -95,23 +93,13 @@ impl Reading {
             }
             four.finish()?;
         } else if let Some(mut knee) = table.table_if("toggle")? {
-            let (bars, parts) = four_bar(&mut knee)?;
-            let link = knee.number("link", Quantity::DIAMETER)?;
-            if link <= bars.rocker {
-                return Err(knee.wrong("link", "more than the rocker"));
-            }
-            let direction = knee.number("direction", Quantity::DIRECTION)?;
-            let toggle = Toggle { bars, link, direction };
-            let slider = Orders::sampled(|angle| toggle.way(angle));
-            let moved = (knee.number("slider_mass", Quantity::SIZE)?, slider.clone());
-            let parts: Vec<(f64, Orders)> = parts.into_iter().chain([moved]).collect();
+            let (slider, parts) = toggle(&mut knee)?;
             law = inertia(&knee, "crank", &parts, &slider)?;
             (way, friction) = (Some(slider), knee.number_or("friction", Quantity::SIZE, 0.0)?);
             knee.finish()?;
         } else if let Some(mut cam) = table.table_if("cam")? {
-            let follower = Orders::of(&even(&mut cam, "lift", Quantity::LIFT)?);
-            let mass = cam.number("mass", Quantity::SIZE)?;
-            law = inertia(&cam, "lift", &[(mass, follower.clone())], &follower)?;
+            let (follower, parts) = mechanism::cam(&mut cam)?;
+            law = inertia(&cam, "lift", &parts, &follower)?;
             (way, friction) = (Some(follower), cam.number_or("friction", Quantity::SIZE, 0.0)?);
             cam.finish()?;
         }
@@ -130,24 +118,4 @@ impl Reading {
         self.ways.push(way);
         Ok(coordinate)
     }
-}
-
-/// The inertia (kg m2) of a mechanism by the angle of its crank.
-fn inertia(table: &Table<'_>, key: &str, parts: &[(f64, Orders)], way: &Orders) -> Result<Vec<Harmonic>, Diagnostic> {
-    let moved: Vec<(f64, &Orders)> = parts.iter().map(|(mass, way)| (*mass, way)).collect();
-    let inertia = Orders::inertia(&moved);
-    if [way, &inertia].into_iter().flat_map(|orders| &orders.0).any(|harmonic| harmonic.cosine.is_nan()) {
-        let expected = "bars that are not so near to lying in one line: their motion has more than 2,000 orders";
-        return Err(table.wrong(key, expected));
-    }
-    Ok(inertia.0)
-}
-
-/// Values at even angles of a turn, the first at zero.
-fn even(table: &mut Table<'_>, key: &'static str, quantity: Quantity) -> Result<Vec<f64>, Diagnostic> {
-    let values = table.numbers(key, quantity)?;
-    if values.len() < 3 || values.len() % 2 == 0 || values.len() > 1001 {
-        return Err(table.wrong(key, "an odd number of values at even angles of a turn, 3 to 1001"));
-    }
-    Ok(values)
 }

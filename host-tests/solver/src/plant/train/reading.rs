@@ -45,6 +45,13 @@ impl Motion {
         coordinate.map_or(f64::NAN, |coordinate| coordinate.inertia)
     }
 
+    /// Kinetic energy of all coordinates, J.
+    #[must_use]
+    pub fn kinetic_energy(&self) -> f64 {
+        let moving = self.train.coordinates.iter().zip(self.state.angle.iter().zip(&self.state.speed));
+        moving.map(|(coordinate, (angle, speed))| 0.5 * coordinate.inertia_at(*angle) * speed * speed).sum()
+    }
+
     /// Whether a link carries nothing now: a gap is open, or a rope slack.
     #[must_use]
     pub fn is_open(&self) -> bool {
