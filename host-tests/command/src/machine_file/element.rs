@@ -14,9 +14,9 @@ use super::table::Table;
 use super::train::mean_inertia;
 
 /// The kinds of elements, as a message lists them.
-pub const KINDS: &str = "\"motor\", \"shaft\", \"section\", \"rotor\", \"crank\", \"mechanism\", \"gear\", \"worm\", \"planetary\", \
-    \"belt\", \"drum\", \"screw\", \
-                         \"rope\", \"lifted\", \"driven\", \"swinging\", \"slack\" or \"backlash\"";
+pub const KINDS: &str = "\"motor\", \"shaft\", \"section\", \"rotor\", \"crank\", \"mechanism\", \"gear\", \"worm\", \
+                         \"planetary\", \"belt\", \"drum\", \"screw\", \"rope\", \"lifted\", \"driven\", \"swinging\", \
+                         \"slack\" or \"backlash\"";
 
 /// The numbers that a ratio may be.
 const SIGNED_RATIO: &str = "a number, 1e-6 to 1e6, negative where the two turn against each other";
