@@ -163,7 +163,8 @@ where
     where
         Self: Configure<M, D::Number, Config = ConfigOf<Self>>,
     {
-        <Self as Configure<M, D::Number>>::CONFIG
+        crate::configure::stop_refused::<Self, M, D::Number>();
+        crate::configure::constants::<Self, M, D::Number>()
     }
 
     /// Counts a tick with its faults, and adds that of a `background` that is overdue.

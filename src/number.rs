@@ -28,6 +28,10 @@ use core::ops::{Add, Neg, Sub};
 /// `+` and `-` wrap in fixed point, where the bases leave three bits of headroom. Operations of a single part are
 /// traits beside it: [`Gap`](crate::observer::Gap), [`Stiction`](crate::observer::Stiction),
 /// [`Ranked`](crate::fluctuation::Ranked), [`Summed`](crate::fluctuation::Summed).
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no number of a drive",
+    note = "the number comes first, `f32`, `f64` or `Fixed`: `Drive<f32, TwoMassObserver, SpeedLoop>`"
+)]
 pub trait Number:
     Copy + Default + PartialEq + PartialOrd + Debug + Add<Output = Self> + Sub<Output = Self> + Neg<Output = Self>
 {

@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use super::{Adaptive, AdaptiveConfig, INTERRUPTED, Learning, Scheduling};
-use crate::configure::{Configure, Machine, Units};
+use crate::configure::{Configure, Machine, Refusal, Units};
 use crate::drive::{Composition, ConfigOf, GovernorConfigOf, MADE_UP, ObserverConfigOf, VibrationOf, handed_on};
 use crate::fault::Faults;
 use crate::number::Part;
@@ -22,6 +22,7 @@ where
         schedule: <S::State as Scheduling<M, D>>::CONFIG,
         machine: PhantomData,
     };
+    const REFUSED: Option<Refusal> = D::REFUSED;
 }
 
 impl<M, D, S, L> Adaptive<M, D, S, L>

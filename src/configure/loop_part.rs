@@ -1,7 +1,8 @@
 //! The parts of a drive in its speed loop, and the test of its stability.
 
-use super::{GainSource, Machine};
+use super::{Configure, GainSource, Machine, Refusal};
 use crate::design::{Actuator, Averaging, GovernorDesign, LoopObserver, RigidDesign, SpeedLoopDesign, TwoMassDesign};
+use crate::number::Number;
 
 /// A part in the speed loop, by what it brings to the loop's response.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,43 +52,59 @@ impl LoopPart {
         }
     }
 
-    /// Stops the compilation where the speed loop of observer and governor lacks margin, or is unstable within the
-    /// machine's tolerances.
-    pub(super) const fn test<M: Machine>(&self, governor: &Self) {
-        match &governor.gains {
-            Some(GainSource::SpeedLoop(design)) => self.test_speed_loop::<M>(design, governor),
-            Some(GainSource::Governor(design)) => {
-                assert!(
-                    governor.damping == 0.0,
-                    "a damping of the twist rate needs the gains of a speed loop: let GAINS be GainSource::SpeedLoop"
+    /// Why the speed loop of observer and governor is refused: it lacks margin, or is unstable within the machine's
+    /// tolerances.
+    const fn refused<M: Machine>(&self, governor: &Self) -> Option<&'static str> {
+        let tested = match &governor.gains {
+            Some(GainSource::SpeedLoop(design)) => return self.speed_loop_refused::<M>(design, governor),
+            Some(GainSource::Governor(_)) if governor.damping != 0.0 => {
+                return Some(
+                    "a damping of the twist rate needs the gains of a speed loop: let GAINS be GainSource::SpeedLoop",
                 );
+            }
+            Some(GainSource::Governor(design)) => {
                 let LoopPart { forward: share, acceleration, averaging, .. } = *governor;
                 let design = GovernorDesign { share, acceleration, ..*design };
-                if let Err(error) = design.try_robust(&M::TWO_MASS, averaging, &M::ROBUSTNESS) {
-                    error.stop()
-                }
+                design.try_robust(&M::TWO_MASS, averaging, &M::ROBUSTNESS)
             }
-            None => {}
+            None => Ok(()),
+        };
+        match tested {
+            Ok(()) => None,
+            Err(error) => Some(error.message()),
         }
     }
 
-    const fn test_speed_loop<M: Machine>(&self, design: &SpeedLoopDesign, governor: &Self) {
+    const fn speed_loop_refused<M: Machine>(&self, design: &SpeedLoopDesign, governor: &Self) -> Option<&'static str> {
         let observer = match (&self.two_mass, &self.rigid) {
             (Some(design), _) => LoopObserver::TwoMass(design),
             (None, Some(design)) => LoopObserver::Rigid(design),
-            (None, None) => return,
+            (None, None) => return None,
         };
         let late = match governor.averaging {
             Averaging::None => 0.0,
             // its phase; its gain is below one
             Averaging::Ticks(ticks) => 0.5 * (ticks as f64 - 1.0) * M::PERIOD,
-            Averaging::Cycle(_) => panic!(
-                "an average of the speed over a cycle needs a governor's design: let GAINS be GainSource::Governor"
-            ),
+            Averaging::Cycle(_) => {
+                return Some(
+                    "an average of the speed over a cycle needs a governor's design: let GAINS be GainSource::Governor",
+                );
+            }
         };
         let speed_loop = SpeedLoopDesign { damping: design.damping + governor.damping, ..*design };
         let Actuator { delay, lag } = M::ACTUATOR;
         let actuator = Actuator { delay: delay + late, lag };
-        M::TWO_MASS.robust(observer, &speed_loop, actuator, &M::TOLERANCE, &M::ROBUSTNESS);
+        match M::TWO_MASS.try_robust(observer, &speed_loop, actuator, &M::TOLERANCE, &M::ROBUSTNESS) {
+            Ok(()) => None,
+            Err(error) => Some(error.message()),
+        }
+    }
+}
+
+/// Why the speed loop of an observer and a governor is refused.
+pub(super) const fn refused<M: Machine, N: Number, O: Configure<M, N>, G: Configure<M, N>>() -> Option<Refusal> {
+    match O::LOOP.refused::<M>(&G::LOOP) {
+        Some(sentence) => Some(Refusal::new(sentence)),
+        None => None,
     }
 }

@@ -26,6 +26,12 @@ impl Rating {
     /// Peripheral speed of the rotor that few motors exceed (m/s): the machines of the project's firmware have 5 to
     /// 26 m/s. A rated speed in r/min for rad/s is 9.5 times too fast, and found with 18 of 19 of them.
     pub const PERIPHERAL_SPEED: f64 = 60.0;
+    /// Run-up that few machines exceed (s): those of the project's firmware take 0.1 to 8 s. Inertias in kg cm2, an
+    /// inverted ratio or a torque in kN m make it a hundred times longer and more.
+    pub const RUN_UP: f64 = 60.0;
+    /// Twist under rated torque that few shafts exceed (rad): 20 degrees. A stiffness per degree makes it 57 times
+    /// larger.
+    pub const SHAFT_TWIST: f64 = 0.35;
 
     /// The drive holds its torque to 1 % of rated in a tick, as a current-controlled motor does; the load torque
     /// wanders by half of rated in 10 s, so that the observer follows a step of the rated torque in some tens of
@@ -86,6 +92,12 @@ impl Rating {
         if usual < possible { usual } else { possible }
     }
 
+    /// Time (s) from standstill to rated speed by rated torque, with this inertia at the motor (kg m2).
+    #[must_use]
+    pub const fn run_up(&self, inertia: f64) -> f64 {
+        inertia * self.speed.0 / self.torque.0
+    }
+
     /// Whether the rotor of a motor of this inertia (kg m2) has at most this peripheral speed (m/s) at rated speed,
     /// taken as a steel cylinder three radii long.
     #[must_use]
@@ -94,23 +106,6 @@ impl Rating {
         let radius = inertia / (1.5 * core::f64::consts::PI * 7_850.0);
         !(fifth(self.speed.0) * radius > fifth(peripheral_speed))
     }
-
-    /// Stops the compilation where a field cannot be.
-    pub(super) const fn check<M: Machine>(&self) {
-        let Rating { torque: Torque(torque), speed: Speed(speed), torque_limit: Torque(limit) } = *self;
-        assert!(torque > 0.0 && torque.is_finite(), "RATING: `torque` must be positive and finite");
-        assert!(speed > 0.0 && speed.is_finite(), "RATING: `speed` must be positive and finite");
-        assert!(
-            limit >= torque && limit.is_finite(),
-            "RATING: `torque_limit` must be finite and at least `torque`: it is the largest torque that the drive may \
-            command"
-        );
-        assert!(
-            self.is_within(M::CHAIN.masses()[0], M::PERIPHERAL_SPEED),
-            "RATING: at this `speed` (rad/s) the peripheral speed of the motor's rotor would be over \
-            `PERIPHERAL_SPEED`: write r/min as `Speed::rpm(1480.0)`, or name `PERIPHERAL_SPEED` for so fast a motor"
-        );
-    }
 }
 
 /// A machine with its motor, its encoder and its tick rate: four constants, and those that follow from them.
@@ -118,6 +113,11 @@ impl Rating {
 /// Every default states its derivation. Name a constant to override it; constants derived from it follow. A constant
 /// that no part of the drive uses is never evaluated. Most of the 19 machines of the project's firmware, each
 /// tuned on a full simulation, keep the defaults of torque accuracy, gear and screening.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no machine",
+    note = "implement `Machine` for a type of your own, with `CHAIN`, `RATING`, `ENCODER` and `RATE_HZ`, and name it: \
+            `RollDrive::configure::<Roll>()`"
+)]
 pub trait Machine {
     /// The machine, from the motor to the load.
     const CHAIN: Chain;
@@ -134,6 +134,12 @@ pub trait Machine {
     /// Largest plausible peripheral speed of the motor's rotor (m/s): [`Rating::is_within`] with the first inertia of
     /// the chain.
     const PERIPHERAL_SPEED: f64 = Rating::PERIPHERAL_SPEED;
+    /// Longest plausible run-up (s): the inertia of the whole chain to rated speed by rated torque. A larger one is a
+    /// compile error that asks for the units of inertias, ratios and torque.
+    const RUN_UP: f64 = Rating::RUN_UP;
+    /// Largest plausible twist of a shaft under rated torque (rad), on its own ends: 20 degrees, as soft couplings
+    /// have. A larger one is a compile error that asks for the unit of the stiffness.
+    const SHAFT_TWIST: f64 = Rating::SHAFT_TWIST;
     /// Time between two ticks (s).
     const PERIOD: f64 = period(Self::RATE);
 

@@ -1,6 +1,6 @@
 //! Observers for a machine.
 
-use super::{Configure, LoopPart, Machine};
+use super::{Configure, LoopPart, Machine, Needs};
 use crate::design::MechanismDesign;
 use crate::learning::{Correction, EccentricityObserver};
 use crate::number::Fixed;
@@ -23,6 +23,7 @@ impl<M: Machine, N: Correction, O: Configure<M, N>> Configure<M, N> for Eccentri
     type Config = O::Config;
     const CONFIG: Self::Config = O::CONFIG;
     const LOOP: LoopPart = O::LOOP;
+    const NEEDS: Needs = O::NEEDS;
 }
 
 macro_rules! observers {
@@ -31,12 +32,14 @@ macro_rules! observers {
             type Config = TwoMassConfig<$number>;
             const CONFIG: Self::Config = TwoMassConfig::<$number>::new(&M::OBSERVER, $bases);
             const LOOP: LoopPart = LoopPart { two_mass: Some(M::OBSERVER), ..LoopPart::NONE };
+            const NEEDS: Needs = Needs::SHAFT;
         }
 
         impl<M: Machine> Configure<M, $number> for SemiImplicitObserver {
             type Config = SemiImplicitConfig<$number>;
             const CONFIG: Self::Config = SemiImplicitConfig::<$number>::new(&M::OBSERVER, $bases);
             const LOOP: LoopPart = LoopPart { two_mass: Some(M::OBSERVER), ..LoopPart::NONE };
+            const NEEDS: Needs = Needs::SHAFT;
         }
 
         impl<M: Machine> Configure<M, $number> for RigidObserver {
@@ -49,6 +52,7 @@ macro_rules! observers {
             type Config = BacklashConfig<$number>;
             const CONFIG: Self::Config = BacklashConfig::<$number>::new(&M::BACKLASH_OBSERVER, $bases);
             const LOOP: LoopPart = LoopPart { two_mass: Some(M::BACKLASH_OBSERVER.contact), ..LoopPart::NONE };
+            const NEEDS: Needs = Needs::SHAFT;
         }
 
         impl<M: HasMechanism, const TOOLS: usize> Configure<M, $number> for MechanismObserver<f32, TOOLS> {
@@ -61,12 +65,14 @@ macro_rules! observers {
             type Config = GearedConfig<$number, O::Config>;
             const CONFIG: Self::Config = GearedConfig::<$number, _>::new(O::CONFIG, &M::GEAR, M::PERIOD, $bases);
             const LOOP: LoopPart = O::LOOP;
+            const NEEDS: Needs = O::NEEDS.with_losses();
         }
 
         impl<M: Machine, O: Configure<M, $number, Config: Copy>> Configure<M, $number> for LoadGearObserver<O> {
             type Config = LoadGearConfig<$number, O::Config>;
             const CONFIG: Self::Config = LoadGearConfig::<$number, _>::new(O::CONFIG, &M::LOAD_GEAR, M::PERIOD, $bases);
             const LOOP: LoopPart = O::LOOP;
+            const NEEDS: Needs = O::NEEDS;
         }
     };
 }

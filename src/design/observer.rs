@@ -77,6 +77,26 @@ impl TwoMass {
         }
     }
 
+    /// Whether the sample rate can follow the shaft.
+    ///
+    /// # Errors
+    /// [`Error::Period`] for a rate that is not positive; [`Error::SampleRate`] where the resonance lies above half of
+    /// it and survives a tick.
+    pub const fn try_follow(&self, rate: Rate) -> Result<(), Error> {
+        let period = match rate.period() {
+            Ok(period) => period,
+            Err(error) => return Err(error),
+        };
+        let (w, zeta) = (self.resonance(), self.damping_ratio());
+        if zeta < 1.0 {
+            let turned = w * sqrt((1.0 - zeta) * (1.0 + zeta)) * period;
+            if turned >= core::f64::consts::PI && exp(-zeta * w * period) > SURVIVING_SWING {
+                return Err(Error::SampleRate);
+            }
+        }
+        Ok(())
+    }
+
     /// [`observer`](Self::observer), with an error instead of a panic.
     ///
     /// # Errors
@@ -100,12 +120,8 @@ impl TwoMass {
         if self.stiffness == 0.0 {
             return Err(Error::Unobservable);
         }
-        let (w, zeta) = (self.resonance(), self.damping_ratio());
-        if zeta < 1.0 {
-            let turned = w * sqrt((1.0 - zeta) * (1.0 + zeta)) * period;
-            if turned >= core::f64::consts::PI && exp(-zeta * w * period) > SURVIVING_SWING {
-                return Err(Error::SampleRate);
-            }
+        if let Err(error) = self.try_follow(rate) {
+            return Err(error);
         }
 
         let step = ExactStep::new(self, period);

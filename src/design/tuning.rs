@@ -66,6 +66,11 @@ impl Encoder {
         Self { counts: 4 * lines as u64, amplitudes: [0.0; 2], periods: lines, jitter: 0.0 }
     }
 
+    /// Whether it has fewer than 32 lines, which are rather bits.
+    pub(crate) const fn has_few_lines(&self) -> bool {
+        self.periods > 1 && self.periods < 32 && self.counts == 4 * self.periods as u64
+    }
+
     /// An encoder or resolver of so many counts a turn.
     #[must_use]
     pub const fn counts(counts: u32) -> Self {

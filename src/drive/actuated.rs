@@ -2,7 +2,7 @@
 
 use super::composition::handed_on;
 use super::{Composition, ConfigOf, GovernorConfigOf, ObserverConfigOf, VibrationOf};
-use crate::configure::{Configure, GainSource, HasActuator, Machine};
+use crate::configure::{Configure, GainSource, HasActuator, Machine, Refusal};
 use crate::design::Actuator;
 use crate::fault::Faults;
 use crate::governor::{
@@ -41,8 +41,9 @@ pub struct ActuatedConfig<C, N: Number, const LAGS: usize, const RING: usize> {
     pub delay: TransportDelayConfig<RING>,
 }
 
-/// Stops the compilation where the governor's gains allow for less than the actuator's lags and delay.
-const fn allowed<const LAGS: usize, M: HasActuator<LAGS>>() {
+/// Why the actuator of a machine is refused: the governor's gains allow for less than its lags and delay, or the ring
+/// is too short.
+const fn refused<const LAGS: usize, const RING: usize, M: HasActuator<LAGS>>() -> Option<Refusal> {
     let Actuator { delay, lag } = match M::GAINS {
         GainSource::Governor(design) => design.actuator,
         GainSource::SpeedLoop(_) => M::ACTUATOR,
@@ -53,11 +54,25 @@ const fn allowed<const LAGS: usize, M: HasActuator<LAGS>>() {
         k += 1;
     }
     // half a period: rounding of the given figures
-    assert!(
-        sum <= delay + lag + 0.5 * M::PERIOD,
-        "the speed loop allows for less delay than the LAGS and the TORQUE_DELAY of HasActuator together: give ACTUATOR \
-        at least their sum, and GAINS the same ACTUATOR"
-    );
+    if !(sum <= delay + lag + 0.5 * M::PERIOD) {
+        return Some(
+            Refusal::new("ACTUATOR: LAGS and TORQUE_DELAY of HasActuator are ")
+                .figure(sum)
+                .and(" s together, the speed loop allows for ")
+                .figure(delay + lag)
+                .and(" s: give ACTUATOR at least their sum, and GAINS the same ACTUATOR"),
+        );
+    }
+    match TransportDelayConfig::<RING>::try_new(M::TORQUE_DELAY, M::PERIOD) {
+        Ok(_) => None,
+        Err(error) => Some(
+            Refusal::new("TORQUE_DELAY: ")
+                .and(error.message())
+                .and(": `Actuated<_, LAGS, RING>` needs a RING of more than ")
+                .figure(M::TORQUE_DELAY / M::PERIOD)
+                .and(" ticks, a power of two"),
+        ),
+    }
 }
 
 impl<M, D, const LAGS: usize, const RING: usize> Configure<M, D::Number> for Actuated<D, LAGS, RING>
@@ -67,13 +82,14 @@ where
     ActuatorMonitor<D::Number, LAGS>: Configure<M, D::Number, Config = ActuatorMonitorConfig<D::Number, LAGS>>,
 {
     type Config = ConfigOf<Self>;
-    const CONFIG: Self::Config = {
-        allowed::<LAGS, M>();
-        ActuatedConfig {
-            drive: <D as Configure<M, D::Number>>::CONFIG,
-            monitor: <ActuatorMonitor<D::Number, LAGS> as Configure<M, D::Number>>::CONFIG,
-            delay: TransportDelayConfig::new(M::TORQUE_DELAY, M::PERIOD),
-        }
+    const CONFIG: Self::Config = ActuatedConfig {
+        drive: <D as Configure<M, D::Number>>::CONFIG,
+        monitor: <ActuatorMonitor<D::Number, LAGS> as Configure<M, D::Number>>::CONFIG,
+        delay: TransportDelayConfig::new(M::TORQUE_DELAY, M::PERIOD),
+    };
+    const REFUSED: Option<Refusal> = match D::REFUSED {
+        None => refused::<LAGS, RING, M>(),
+        refused => refused,
     };
 }
 
@@ -83,7 +99,8 @@ impl<D: Composition<Governor: HasRunSequence>, const LAGS: usize, const RING: us
     where
         Self: Configure<M, D::Number, Config = ConfigOf<Self>>,
     {
-        <Self as Configure<M, D::Number>>::CONFIG
+        crate::configure::stop_refused::<Self, M, D::Number>();
+        crate::configure::constants::<Self, M, D::Number>()
     }
 
     /// A drive whose machine stands still at `angle` (2^-32 turn), with the actuator at zero torque.

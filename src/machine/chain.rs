@@ -76,6 +76,8 @@ pub struct Chain {
     pub(super) flow: Flow,
     /// A gap that waits for the next shaft (rad).
     pub(super) gap: f64,
+    /// Largest twist of a shaft per torque of the motor (rad/(N m)).
+    twist: f64,
     /// Efficiencies that wait for the next shaft, while the motor drives and while the load does.
     waiting: [f64; 2],
     /// Those of gears that the last shaft ends in.
@@ -109,6 +111,7 @@ impl Chain {
             back_efficiency: 1.0,
             flow: Flow::Lossless,
             gap: 0.0,
+            twist: 0.0,
             waiting: [1.0; 2],
             ending: [1.0; 2],
             gravity: [0.0; 3],
@@ -162,7 +165,16 @@ impl Chain {
         if !not_negative(damping.0) {
             return self.refuse(Error::ShaftDamping);
         }
-        self.link(referred, refer_stiffness(damping.0, self.ratio, self.loss(), Side::Load, self.flow))
+        let mut this = self.link(referred, refer_stiffness(damping.0, self.ratio, self.loss(), Side::Load, self.flow));
+        this.twist = this.twist.max(this.ratio / stiffness.0);
+        this
+    }
+
+    /// Largest twist of a [`shaft`](Self::shaft) under a torque of the motor that the load holds (rad, on the shaft's
+    /// own ends); belts and ropes are left out.
+    #[must_use]
+    pub const fn largest_twist(&self, torque: f64) -> f64 {
+        self.twist * torque
     }
 
     /// A rotor on the present mass: inertia (kg m2) on its own speed.

@@ -136,7 +136,11 @@ pub(super) fn tuning(machine: &MachineFile, two: &str) -> String {
 /// The encoder with its accuracy.
 pub(super) fn encoder(machine: &MachineFile) -> String {
     let accuracy = &machine.encoder.accuracy;
-    let mut encoder = format!("Encoder::lines({})", machine.encoder.lines);
+    // the library takes so few lines for bits
+    let mut encoder = match machine.encoder.lines {
+        lines @ 0..32 => format!("Encoder::counts({})", 4 * lines),
+        lines => format!("Encoder::lines({lines})"),
+    };
     if !accuracy.is_none() {
         encoder += &format!(
             ".interpolation({}, {:?}).eccentricity({:?}).jitter({:?}, {:?})",

@@ -58,6 +58,9 @@ pub struct Project {
     speed: String,
     /// Whether the motor is faster than most.
     fast: bool,
+    /// Whether its run-up and the twist of a shaft pass the plausible ones.
+    heavy: bool,
+    soft: bool,
     /// Ticks a second.
     pub rate_hz: u32,
     torque_accuracy: String,
@@ -206,6 +209,8 @@ impl Project {
             torque: float(machine.limits.torque),
             rated_torque: float(machine.limits.rated_torque),
             speed: float(machine.limits.speed),
+            heavy: machine.rating().run_up(machine.chain.total_inertia()) > Rating::RUN_UP,
+            soft: machine.chain.largest_twist(machine.limits.rated_torque) > Rating::SHAFT_TWIST,
             fast: !machine.rating().is_within(machine.chain.masses()[0], Rating::PERIPHERAL_SPEED),
             rate_hz: machine.control.rate_hz,
             torque_accuracy: float(machine.disturbance.torque_accuracy),
