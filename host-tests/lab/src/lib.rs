@@ -1,5 +1,5 @@
-//! The laboratory: the firmware's scenes in closed loop, balancing, generator sets, commissioning, backlash, stiff and
-//! extreme steps, peers, the survey of all, and the check of everything. It is for who changes the code, and is not published.
+//! The laboratory: the firmware's scenes in closed loop, balancing, generator sets, commissioning, backlash,
+//! peers, the survey of all, and the check of everything. It is for who changes the code, and is not published.
 #![deny(unsafe_code)]
 
 pub mod backlash;
@@ -16,4 +16,3 @@ pub mod peers;
 pub mod proof;
 mod stamp;
 pub mod survey;
-pub mod sweep;

@@ -1,4 +1,4 @@
-//! Drives in closed loop with the full solver: scenes, generator sets, balancing, commissioning, sweeps, cases.
+//! Drives in closed loop with the full solver: scenes, generator sets, balancing, commissioning, stiff steps, cases.
 
 mod backlash;
 mod cases;
@@ -8,4 +8,4 @@ mod fluctuation;
 mod generator;
 mod load_sharing;
 mod rotor;
-mod sweep;
+mod stiff;

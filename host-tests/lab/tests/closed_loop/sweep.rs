@@ -1,4 +1,0 @@
-//! Steps of observers over stiff and extreme machines.
-
-mod discretisation;
-mod errors;
