@@ -26,21 +26,12 @@ use crate::measure::stack;
 use crate::self_test::fingerprint::SEED;
 use crate::self_test::inputs::Program;
 
-/// Calls of a function. For a long run the host writes another number over this one, in a copy of the image.
-#[unsafe(no_mangle)]
-static DRIVELINE_CALLS: u32 = CALLS as u32;
-/// Default number of calls; odd, so that the median is one of them.
+/// Calls of a function; odd, so that the median is one of them.
 const CALLS: usize = 1001;
 /// Calls of a long function; odd too.
 const LONG_CALLS: usize = 15;
 
-/// Calls of a function in this run.
-fn calls() -> u32 {
-    // SAFETY: a static, always valid; volatile, because the image may hold another number than the source.
-    unsafe { (&raw const DRIVELINE_CALLS).read_volatile() }
-}
-
-/// Instruction counts of a function's calls. The first `KEPT` are kept for the median.
+/// Instruction counts of a function's calls, `KEPT` of them.
 struct Counts<const KEPT: usize> {
     kept: [u32; KEPT],
     calls: u32,
@@ -100,7 +91,7 @@ impl<'b, B: Board> Bench<'b, B> {
         let mut inputs = self.inputs.clone();
         let mut output = O::default();
         let mut counts = Counts::<CALLS>::new();
-        for _ in 0..calls() {
+        for _ in 0..CALLS {
             counts.add(self.counter.call(function, &mut state, &input(&mut inputs), &mut output));
         }
         self.print(name, function as usize, &counts);
@@ -117,7 +108,7 @@ impl<'b, B: Board> Bench<'b, B> {
     ) {
         let mut inputs = self.inputs.clone();
         let mut counts = Counts::<CALLS>::new();
-        for _ in 0..calls() {
+        for _ in 0..CALLS {
             let (angle, torque) = input(&mut inputs);
             counts.add(self.counter.step(step, constants, &mut state, angle, torque));
         }

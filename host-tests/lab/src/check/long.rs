@@ -2,11 +2,6 @@
 //!
 //! What takes long is a test like the others, ignored for its length and named here.
 
-use driveline_firmware::board::BOARDS;
-use driveline_qemu::image::{Program, build};
-
-use super::each::{each, passed};
-use super::gap::{Gap, Inputs, table};
 use super::steps::together;
 use super::{Count, Failed, Step, Voice, cargo, pages};
 
@@ -14,7 +9,7 @@ use super::{Count, Failed, Step, Voice, cargo, pages};
 const LAB: &str = "driveline-lab";
 
 /// All long steps, the shortest first.
-pub const LONG: [Step; 7] = [
+pub const LONG: [Step; 6] = [
     Step {
         name: "power-cuts",
         content: "the flash's power cut at every byte of a save: the record is the old one or the new one",
@@ -51,12 +46,6 @@ pub const LONG: [Step; 7] = [
         repeat: "cargo lab check --long --only seeds",
         run: seeds,
     },
-    Step {
-        name: "inputs",
-        content: "three million inputs of each image and function in QEMU, a million sought: none above its bound",
-        repeat: "cargo lab check --long --only inputs",
-        run: inputs,
-    },
 ];
 
 fn power_cuts(voice: &Voice) -> Result<Count, Failed> {
@@ -85,53 +74,4 @@ fn attacks(voice: &Voice) -> Result<Count, Failed> {
 
 fn seeds(voice: &Voice) -> Result<Count, Failed> {
     cargo::ignored_tests(LAB, "closed_loop", &["every_machine_over_forty_seeds"], voice)
-}
-
-/// A variant without a bound has nothing to exceed.
-fn inputs(voice: &Voice) -> Result<Count, Failed> {
-    let inputs = Inputs::of_environment().map_err(Failed::whole)?;
-    let mut gaps = each(|variant, board| {
-        let image = build(variant, board, Program::ControlLoop, |_| {}).map_err(|error| error.to_string())?;
-        let gap = Gap::of(&image, inputs)?;
-        voice.say(&gap.to_string());
-        Ok(gap)
-    })?;
-    let images = gaps.len();
-    let functions = std::thread::scope(|scope| {
-        let boards: Vec<_> =
-            BOARDS.iter().map(|&board| scope.spawn(move || Gap::of_functions(board, inputs))).collect();
-        boards
-            .into_iter()
-            .map(|board| board.join().unwrap_or_else(|_| Err("a board's thread panicked".into())))
-            .collect()
-    });
-    let functions: Result<Vec<_>, _> = functions;
-    gaps.extend(functions.map_err(Failed::whole)?.into_iter().flatten());
-    voice.say(&table(&gaps, &BOARDS.iter().map(|board| board.core).collect::<Vec<_>>()));
-    let shares = |of: fn(&Gap) -> bool| {
-        let mut shares: Vec<f64> = gaps.iter().filter(|gap| of(gap)).filter_map(Gap::share).collect();
-        shares.sort_by(f64::total_cmp);
-        shares
-    };
-    let (all, hoist) = (shares(|_| true), shares(Gap::is_hoist));
-    if let (Some(least), Some(median), Some(of_hoist)) = (all.first(), all.get(all.len() / 2), hoist.first()) {
-        let Inputs { drawn, sought } = inputs;
-        voice.say(&format!(
-            "measured: {drawn} inputs drawn and {sought} sought for each of {images} images, {drawn} calls of each of \
-             {} functions; of {} with a bound the worst is {:.1} % of it at least, {:.1} % in the median, {:.1} % at \
-             least for the hoist",
-            gaps.len() - images,
-            all.len(),
-            100.0 * least,
-            100.0 * median,
-            100.0 * of_hoist
-        ));
-    }
-    let faults: Vec<String> = gaps.iter().filter_map(|gap| gap.holds().err()).collect();
-    if faults.is_empty() {
-        return Ok(passed(&gaps));
-    }
-    let failed = faults.len() as u64;
-    let count = Count { passed: gaps.len() as u64 - failed, failed, skipped: 0 };
-    Err(Failed { count, message: faults.join("\n") })
 }

@@ -5,7 +5,6 @@ mod cargo;
 mod clock;
 pub mod comparison;
 mod each;
-mod gap;
 pub mod last;
 mod long;
 mod pages;

@@ -1,6 +1,5 @@
 //! Instructions and bytes on the pages against `budgets.toml`, which `cargo lab check --only budgets` measures.
 
-use driveline_firmware::scenes::VARIANTS;
 use driveline_qemu::measure::budgets::{Budget, Budgets};
 
 use super::pages::{Page, root};
@@ -126,23 +125,6 @@ fn medians_and_bounds_are_those_of_the_budgets() {
         assert_eq!([&row[2], &row[3]].map(|cell| numbers(cell)), expected.map(|figure| vec![figure]), "{row:?}");
         let bound = numbers(&row[4]).last().copied();
         assert!(bound.is_none_or(|bound| bound == stack(&image, core)), "{image}: {row:?}");
-    }
-}
-
-/// The table of a long run: its longest paths are of the commit that it was made on. Inputs are sought on images alone.
-#[test]
-fn no_worst_input_exceeds_its_longest_path() {
-    for row in rows("doc/makers/worst-case.md", "Worst inputs") {
-        let is_image = VARIANTS.contains(&row[0].as_str());
-        assert!(is_image || row[0].starts_with("bench/"), "{row:?}");
-        for cell in row[1..].iter().filter(|cell| !cell.is_empty() && !cell.starts_with("no bound")) {
-            let (counts, gap) = cell.split_once(": ").unwrap();
-            let numbers = numbers(counts);
-            let (longest, worst) = (numbers[0], *numbers[1..].iter().max().unwrap());
-            assert!(worst <= longest && numbers.len() == 2 + usize::from(is_image), "{row:?}");
-            let expected = 100.0 * (1.0 - worst as f64 / longest as f64);
-            assert_eq!(gap, format!("{expected:.1} %"), "{row:?}");
-        }
     }
 }
 

@@ -7,7 +7,7 @@ use driveline_firmware::board::BOARDS;
 use driveline_firmware::board::nucleo_g474re::FACTS as NUCLEO;
 use driveline_qemu::image::{Contents, ON_NUCLEO, Program, board, build, tick_code};
 use driveline_qemu::link;
-use driveline_qemu::measure::{Called, Cost, Loops, MachineCode, self_test, worst_called};
+use driveline_qemu::measure::{Cost, Loops, MachineCode, self_test};
 use object::{Object, ObjectSection, ObjectSymbol};
 
 /// A bench takes well under a second of QEMU.
@@ -223,17 +223,4 @@ fn the_interrupt_of_the_board_with_a_motor_is_as_long_as_the_book_says() {
     let (least, most) = (&cycles["least"], &cycles["most"]);
     let sentence = format!("{instructions} instructions, {stack} bytes of stack, and {least} to {most} cycles");
     assert!(page.split_whitespace().collect::<Vec<_>>().join(" ").contains(&sentence), "{sentence}");
-}
-
-#[test]
-fn a_longer_bench_is_the_same_machine_code_with_more_calls() {
-    for &board in BOARDS {
-        let called = worst_called(board, 2000).unwrap();
-        for Called { name, longest, most } in &called {
-            assert!(longest.is_none_or(|longest| *most <= longest), "{name} on {}", board.core);
-        }
-        for name in ["tick", "step/exact", "drive/semi-implicit", "phasor/1", "wheel/tooth"] {
-            assert!(called.iter().any(|called| called.name == name), "{name} on {}", board.core);
-        }
-    }
 }

@@ -2,14 +2,12 @@
 
 mod bound;
 pub mod budgets;
-mod calls;
 mod cost;
 mod search;
 mod self_test;
 
 pub use bound::MachineCode;
-pub use calls::{Called, worst_called};
 pub use cost::{BENCHES, Cost, Spread};
 pub use driveline_longest_path::{Bound, Core, Cycles, Flash, Loops, Piece, Refusal};
-pub use search::{worst_drawn, worst_sought};
+pub use search::worst_drawn;
 pub use self_test::self_test;
