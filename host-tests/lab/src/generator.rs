@@ -8,10 +8,7 @@
 //! | recovery | from the load's change until the frequency stays within the band that is allowed |
 
 pub mod diesel;
-pub mod faults;
 pub mod run;
 pub mod set;
 pub mod standard;
-pub mod trips;
 pub mod turbine;
-pub mod verdict;

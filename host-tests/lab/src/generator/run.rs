@@ -36,8 +36,6 @@ pub struct Moment {
     pub time: f64,
     /// The generator's frequency over the last period of it, of rated.
     pub frequency: f64,
-    /// The flywheel's speed, of rated.
-    pub speed: f64,
     /// Torque commanded, of rated.
     pub command: f64,
     /// State, as reported by the panel.
@@ -108,7 +106,6 @@ pub fn run(
         moments.push(Moment {
             time,
             frequency: frequency / RATED_SPEED,
-            speed: set.flywheel_speed() / RATED_SPEED,
             command: command / constants.rated_torque,
             mode: if tick == 0 { 0 } else { output.answer },
         });

@@ -112,11 +112,6 @@ impl Set {
         self.plant.motor_angle() - (0..self.flywheel).map(|shaft| self.plant.twist(shaft)).sum::<f64>()
     }
 
-    /// Speed of the flywheel (rad/s).
-    pub fn flywheel_speed(&self) -> f64 {
-        self.plant.speed(self.flywheel)
-    }
-
     /// Angle of the generator (rad).
     pub fn generator_angle(&self) -> f64 {
         self.flywheel_angle() - self.plant.twist(self.flywheel)

@@ -1,5 +1,5 @@
-//! Generator sets: their engines, their governors under attack.
+//! Generator sets: their engines, the sets by their standards, what disturbs them.
 
-mod attack;
+mod disturbed;
 mod engine;
 mod sets;

@@ -1,6 +1,5 @@
 //! The generator sets' plants against closed forms, finer steps and the second integrator.
 
-use driveline::governor::{TransportDelay, TransportDelayConfig};
 use driveline_firmware::scenes::generator::{DIESEL_TORQUE, FIRING_DELAY, RATED_SPEED, TORQUE_DELAY};
 use driveline_lab::generator::diesel::{CRANK, Diesel, ENGINE};
 use driveline_lab::generator::set::{Kind, Set};
@@ -204,19 +203,4 @@ fn the_chain_is_proven() {
         assert_eq!(recording.plant().speed(1).to_bits(), set.plant().speed(1).to_bits());
         prove(&recording).unwrap();
     }
-}
-
-/// The delay line gives what it was given so many ticks ago, whatever the phase.
-#[test]
-fn the_rack_delays_by_its_ticks() {
-    for ticks in [0_u32, 1, 40, 63] {
-        let config = TransportDelayConfig::<64> { ticks };
-        let mut rack = TransportDelay::<f32, 64>::new();
-        for tick in 1..1000_u16 {
-            let expected = f32::from(tick.saturating_sub(ticks as u16));
-            assert_eq!(rack.delayed(&config, f32::from(tick)), expected);
-        }
-    }
-    assert!(TransportDelayConfig::<64>::try_new(0.027, 1.0 / 2400.0).is_err());
-    assert_eq!(TransportDelayConfig::<64>::new(FIRING_DELAY, 1.0 / 2400.0).ticks, 40);
 }
