@@ -2,13 +2,11 @@
 //! host.
 
 mod course;
-mod engine;
 mod machine;
 mod truth;
 mod verdict;
 
-pub use course::{Course, run};
-pub use engine::on_host;
-pub use machine::{Case, Trial, named, of_file};
+pub use course::{Course, on_host, run};
+pub use machine::{Case, named};
 pub use truth::Truth;
 pub use verdict::{Row, Verdict, verdict};

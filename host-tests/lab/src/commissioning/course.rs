@@ -1,13 +1,15 @@
 //! A commissioning from start to end: plant, sensors and test in lock-step.
 
+use std::error::Error;
 use std::io;
 
+use driveline::commissioning::TestConfig;
 use driveline_firmware::scene::Input;
-use driveline_firmware::scenes::commission::panel;
+use driveline_firmware::scenes::commission::{Commission, panel};
 
 use super::machine::Case;
 use driveline_closed_loop::sensors::Encoder;
-use driveline_closed_loop::ticks::Ticks;
+use driveline_closed_loop::ticks::{OnHost, Ticks};
 use driveline_solver::noise::Noise;
 
 /// A moment of a course.
@@ -52,6 +54,13 @@ const LONGEST: f64 = 3600.0;
 /// Noise of a seed: each has its own, where [`Noise`] tells odd ones apart alone.
 fn noise_of(seed: u64) -> Noise {
     Noise::new(seed.wrapping_mul(2).wrapping_sub(1))
+}
+
+/// Runs a case on the host.
+pub fn on_host(case: &Case, seed: u64) -> Result<Course, Box<dyn Error>> {
+    // It lives as long as the program: there are a few.
+    let config: &'static TestConfig = Box::leak(Box::new(TestConfig::try_new(&case.settings)?));
+    Ok(run(case, seed, &mut OnHost(Commission::of(config)))?)
 }
 
 /// Runs a test on a plant.
@@ -110,17 +119,4 @@ pub fn run(case: &Case, seed: u64, drive: &mut impl Ticks) -> io::Result<Course>
         course.gains = gains.iter().all(|gain| gain.is_finite()).then_some(gains);
     }
     Ok(course)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::noise_of;
-
-    #[test]
-    fn every_seed_has_its_own_noise() {
-        let mut first: Vec<u64> = (0..1_000).map(|seed| noise_of(seed).normal().to_bits()).collect();
-        first.sort_unstable();
-        first.dedup();
-        assert_eq!(first.len(), 1_000);
-    }
 }

@@ -7,14 +7,12 @@ use core::f64::consts::PI;
 
 use driveline::commissioning::TestSettings;
 use driveline::configure::Machine as _;
-use driveline::design::{Encoder, Rate};
 use driveline_firmware::scenes::blooming_mill::BloomingMill;
 use driveline_firmware::scenes::commission::{HELD, HOIST, MILL, SPINDLE};
 use driveline_firmware::scenes::hoist::Hoist;
 use driveline_firmware::scenes::spindle::{self, Spindle};
 
 use super::truth::Truth;
-use cargo_driveline::machine_file::MachineFile;
 use driveline_solver::plant::{Chain, Plant, PlantError, Shaft, Start};
 
 /// A machine to be commissioned.
@@ -137,67 +135,4 @@ pub fn named(name: &str) -> Result<Case, String> {
     let names: Vec<String> = cases.iter().map(|case| format!("`{}`", case.name)).collect();
     let found = cases.into_iter().find(|case| case.name == name);
     found.ok_or_else(|| format!("there is no machine `{name}` to be commissioned; there are {}", names.join(", ")))
-}
-
-/// How a machine from a file is tried.
-#[derive(Clone, Copy, Debug)]
-pub struct Trial {
-    /// Speed of the test, of the file's largest.
-    pub speed: f64,
-    /// Travel (rad).
-    pub travel: f64,
-    /// Dry friction at the far end, of the file's largest torque.
-    pub friction: f64,
-    /// Rated torque, of the file's largest.
-    pub rated: f64,
-    /// Where the resonance is looked for (Hz); else from a fifth of the antiresonance to two and a half times the
-    /// resonance.
-    pub band: Option<[f64; 2]>,
-}
-
-/// A machine from a file: its plant by its chain, without the losses of its gears. The test's data are the motor's own
-/// inertia, the weight and the band.
-///
-/// # Errors
-/// A sentence: a machine with fewer than two masses, or what the plant refuses.
-pub fn of_file(machine: &MachineFile, trial: Trial) -> Result<Case, String> {
-    let chain = &machine.chain;
-    let rated = trial.rated * machine.limits.torque;
-    let friction = trial.friction * machine.limits.torque;
-    let plant = machine.plant(friction).map_err(|error| format!("the plant of `{}`: {error}", machine.name))?;
-    let (Some((motor, _)), Some(_)) = (chain.masses().split_first(), chain.shafts().first()) else {
-        return Err(format!("`{}` has one mass: there is nothing to be found", machine.name));
-    };
-    let shafts = chain.shafts();
-    let [stiffness, damping]: [Vec<f64>; 2] =
-        [shafts.iter().map(|s| s.stiffness).collect(), shafts.iter().map(|s| s.damping).collect()];
-    let truth = Truth::of(chain.masses(), &stiffness, &damping)
-        .friction(friction, 0.0)
-        .weight(chain.gravity_torque())
-        .gap(shafts.iter().map(|shaft| shaft.gap).sum());
-    let rate = f64::from(machine.control.rate_hz);
-    let [resonance, antiresonance] = [truth.figures[3], truth.figures[4]].map(|w| w / core::f64::consts::TAU);
-    Ok(Case {
-        name: machine.slug(),
-        plant,
-        settings: TestSettings {
-            rate: Rate::hz(machine.control.rate_hz),
-            encoder: Encoder::lines(machine.encoder.lines),
-            torque: 0.4 * rated,
-            shaft_torque: 0.5 * rated,
-            speed: trial.speed * machine.limits.speed,
-            travel: trial.travel,
-            held: chain.gravity_torque(),
-            inertia: *motor,
-            band: trial.band.unwrap_or([0.2 * antiresonance, (2.5 * resonance).min(0.1 * rate)]),
-            torque_accuracy: machine.disturbance.torque_accuracy,
-            delay: 0.0,
-        },
-        counts: 4 * machine.encoder.lines,
-        eccentricity: [0.0; 2],
-        torque_noise: machine.disturbance.torque_accuracy,
-        rated_torque: rated,
-        shaft: shafts.len() - 1,
-        truth,
-    })
 }

