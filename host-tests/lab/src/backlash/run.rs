@@ -44,16 +44,6 @@ impl Kind {
     /// Those of the six machines.
     pub const ALL: [Kind; 4] = [Kind::Reversals, Kind::Torques, Kind::Rattling, Kind::Dragging];
 
-    pub const fn name(self) -> &'static str {
-        match self {
-            Kind::Reversals => "reversals",
-            Kind::Torques => "torques",
-            Kind::Rattling => "rattling",
-            Kind::Dragging => "dragging",
-            Kind::Bites => "bites",
-        }
-    }
-
     /// Dry friction of the load as a share of rated torque.
     const fn friction(self) -> f64 {
         match self {
@@ -206,12 +196,9 @@ impl Rig {
 pub struct Course {
     /// Angle and torque as reported to the drive.
     pub sensed: Vec<(u32, f64)>,
-    /// Shaft torque (N m), load speed (rad/s) and twist (rad).
-    pub truth: Vec<[f64; 3]>,
-    /// Peak of the shaft torque (N m).
+    /// Shaft torque and its peak (N m).
+    pub shaft_torque: Vec<f64>,
     pub peak: f64,
-    /// Highest speed of the load (rad/s).
-    pub fastest: f64,
 }
 
 impl Course {
@@ -219,14 +206,13 @@ impl Course {
     pub fn record(case: &Case, kind: Kind, seed: u64, seconds: f64) -> Result<Self, PlantError> {
         let mut rig = Rig::new(case, kind, seed)?;
         let ticks = (seconds * f64::from(RATE_HZ)) as usize;
-        let (mut sensed, mut truth) = (Vec::with_capacity(ticks), Vec::with_capacity(ticks));
+        let (mut sensed, mut shaft_torque) = (Vec::with_capacity(ticks), Vec::with_capacity(ticks));
         for _ in 0..ticks {
             sensed.push(rig.sensed());
-            truth.push([rig.plant.shaft_torque(0), rig.plant.speed(1), rig.plant.twist(0)]);
+            shaft_torque.push(rig.plant.shaft_torque(0));
             rig.advance();
         }
-        let largest = |k: usize| truth.iter().fold(0.0_f64, |peak, moment| peak.max(moment[k].abs()));
-        let (peak, fastest) = (largest(0), largest(1));
-        Ok(Course { sensed, truth, peak, fastest })
+        let peak = shaft_torque.iter().fold(0.0_f64, |peak, torque| peak.max(torque.abs()));
+        Ok(Course { sensed, shaft_torque, peak })
     }
 }

@@ -2,27 +2,21 @@
 
 use driveline::design::{BacklashTuning, Rate};
 use driveline::number::Fixed;
-use driveline_lab::backlash::{Case, Course, Estimator, Kind, Library, Rigid, Score};
+use driveline_lab::backlash::{Case, Course, Kind, Library, error};
 use nalgebra::{SMatrix, SVector};
-
-/// Mean over the courses of the shaft torque's rms error over its peak.
-fn mean<E: Estimator>(courses: &[Course], estimator: impl Fn() -> E) -> f64 {
-    let errors = courses.iter().map(|course| Score::of(course, &mut estimator()).shaft_torque);
-    errors.sum::<f64>() / courses.len() as f64
-}
 
 #[test]
 fn bites_are_followed_in_both_numbers() {
     let mill = Case::mill();
     let courses: Vec<_> = (31..51).map(|seed| Course::record(&mill, Kind::Bites, seed, 6.0).unwrap()).collect();
-    // one mass whose load wanders within 0.2 s follows the bites best
-    let rigid = mean(&courses, || Rigid::new(&mill, 0.2));
-    let errors = [mean(&courses, || Library::<f32>::single(&mill)), mean(&courses, || Library::<Fixed>::fixed(&mill))];
-    for error in errors {
-        println!("{:.2} %, one mass {:.2} %", 100.0 * error, 100.0 * rigid);
-        // The aim, 6 %, is that of 200 courses. Single ones deviate by 0.8 %, a mean of 20 by 0.18 %.
+    let mean = |of: &dyn Fn(&Course) -> f64| courses.iter().map(of).sum::<f64>() / courses.len() as f64;
+    let single = mean(&|course| error(course, &mut Library::<f32>::single(&mill)));
+    let fixed = mean(&|course| error(course, &mut Library::<Fixed>::fixed(&mill)));
+    for error in [single, fixed] {
+        println!("{:.2} %", 100.0 * error);
+        // The aim, 6 %, is that of 200 courses. Single ones deviate by 0.8 %, a mean of 20 by 0.18 %. One mass that
+        // follows best, its load wandering within 0.2 s, has 9.1 %.
         assert!(error < 0.06 + 0.0018, "{error}");
-        assert!(error < 0.75 * rigid, "{error}, one mass {rigid}");
     }
 }
 
