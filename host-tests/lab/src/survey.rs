@@ -234,15 +234,7 @@ pub fn markdown(survey: &Survey) -> String {
 }
 
 fn section(text: &mut String, title: &str, said: &str, table: &Table) {
-    let _ = writeln!(text, "{title}\n\n{}\n", escaped(said));
-    let mut line = |cells: &[String]| {
-        let cells: Vec<String> = cells.iter().map(|cell| escaped(cell)).collect();
-        let _ = writeln!(text, "| {} |", cells.join(" | "));
-    };
-    line(table.headings());
-    line(&vec!["---".to_owned(); table.headings().len()]);
-    table.filled().iter().for_each(|row| line(row));
-    text.push('\n');
+    let _ = writeln!(text, "{title}\n\n{}\n\n{}", escaped(said), table.markdown());
 }
 
 /// What Markdown would take for something else.

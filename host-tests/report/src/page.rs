@@ -1,23 +1,31 @@
 //! Puts the report on one page.
 
-mod thinning;
-mod view;
-
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment};
 use serde::Serialize;
 
+use crate::chart::{self, Cost, Quality};
+use crate::format::significant;
 use crate::report::Report;
+use crate::results::{Budget, Variant};
+use crate::sample::{SAMPLES, samples_table};
+use crate::sheet::{Arrangement, Figure, Key, Section, Sheet};
+use crate::table::{Table, variants_table};
 
 /// The page's template and its parts, compiled into the program.
 const TEMPLATES: &[(&str, &str)] = &[
-    ("page.html", include_str!("page/page.html")),
-    ("costs.html", include_str!("page/costs.html")),
     ("sheet.html", include_str!("page/sheet.html")),
     ("frame.html", include_str!("page/frame.html")),
     ("style.css", include_str!("page/style.css")),
     ("viewer.js", include_str!("page/viewer.js")),
 ];
+
+/// Courses on a page at most, and stretches into which each line of one is cut: the page stays below 3 MB.
+const COURSES: usize = 16;
+const STRETCHES: usize = 400;
+
+/// Colours and markers there are.
+const KINDS: usize = 6;
 
 /// Fills a template. Everything is escaped but what is marked as safe: our own SVG and style.
 ///
@@ -40,11 +48,82 @@ pub fn fill(template: &str, values: impl Serialize) -> String {
 impl Report {
     /// The page as HTML. Long series are thinned (peaks kept) so that it stays under 3 MB.
     pub fn page(&self) -> String {
-        fill("page.html", view::view(self))
+        let mut tables = Vec::new();
+        if !self.samples.is_empty() {
+            let (text, table) = samples_table(&self.samples);
+            tables.push(Section::new(SAMPLES, text.replace('`', ""), table));
+        }
+        let text = "Errors: torque as a share of its peak, speed of the rated speed.";
+        tables.push(Section::new("Variants", text, variants_table(&self.variants)));
+        if !self.budgets.is_empty() {
+            tables.push(Section::new("Budgets", "", budgets_table(&self.budgets)));
+        }
+        tables.push(Section::new("Measured, and only estimated", self.notes.join(" "), Table::default()));
+        let shown = self.trajectories.iter().take(COURSES);
+        let courses = shown.map(|trajectory| Figure {
+            title: format!("{}, {}", trajectory.situation, trajectory.variant),
+            text: "Truth from the full solver, the estimate from the motor's angle and torque alone, and under each \
+                   their difference."
+                .to_owned(),
+            legend: ["truth", "estimate", "error"].map(|class| Key::curve(class, class)).to_vec(),
+            plots: vec![chart::course(trajectory, STRETCHES)],
+            ..Figure::default()
+        });
+        Sheet {
+            name: self.scene.clone(),
+            kicker: "measured against the full solver".to_owned(),
+            summary: self.summary.clone(),
+            facts: self.facts.clone(),
+            figures: costs(&self.variants).into_iter().chain(courses).collect(),
+            tables,
+        }
+        .page()
     }
 
     /// Output of `run --json`: `{scene, variants}`.
     pub fn json(&self) -> serde_json::Value {
         serde_json::json!({ "scene": self.scene, "variants": self.variants })
     }
+}
+
+/// Errors against costs; none without a variant. A colour is a number on a core, a marker an observer.
+fn costs(variants: &[Variant]) -> Option<Figure> {
+    variants.first()?;
+    let place = |names: &mut Vec<String>, name: String| {
+        names.iter().position(|known| *known == name).unwrap_or_else(|| {
+            names.push(name);
+            names.len() - 1
+        }) % KINDS
+    };
+    let (mut series, mut observers) = (Vec::new(), Vec::new());
+    let look = |variant: &Variant| {
+        let target = format!("{} on {}", variant.number, variant.core);
+        (place(&mut series, target), place(&mut observers, variant.observer.clone()))
+    };
+    let looks: Vec<(usize, usize)> = variants.iter().map(look).collect();
+    let both = [Quality::ShaftTorque, Quality::LoadSpeed];
+    let plot = |cost| both.map(|quality| chart::error_against_cost(variants, &looks, cost, quality));
+    let legend = series.iter().enumerate().map(|(at, name)| Key::curve(name, format!("s{}", at % KINDS)));
+    Some(Figure {
+        title: "Error against cost".to_owned(),
+        text: "Each point is a variant: its error against the full solver and the cost of its tick on the target. The \
+               line joins the variants that no other betters in both; numbers are rows of the table."
+            .to_owned(),
+        legend: legend.collect(),
+        plots: [Cost::Tick, Cost::Second].into_iter().flat_map(plot).collect(),
+        arrangement: Arrangement::Paired,
+    })
+}
+
+fn budgets_table(budgets: &[Budget]) -> Table {
+    let mut table = Table::new(["what", "measured", "at most", "verdict"]);
+    for budget in budgets {
+        let [measured, limit] = [budget.measured, budget.limit].map(|value| {
+            let number = significant(value);
+            if budget.unit.is_empty() || !value.is_finite() { number } else { format!("{number} {}", budget.unit) }
+        });
+        let verdict = if budget.kept() { "kept" } else { "exceeded" };
+        table.row([budget.name.as_str(), &measured, &limit, verdict]);
+    }
+    table
 }

@@ -46,6 +46,8 @@ pub enum Arrangement {
     Below,
     /// Beside each other.
     Beside,
+    /// Two beside each other.
+    Paired,
 }
 
 /// A line of a legend.

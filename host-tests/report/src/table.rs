@@ -36,6 +36,15 @@ impl Table {
         rows
     }
 
+    /// As Markdown.
+    pub fn markdown(&self) -> String {
+        let rule = vec!["---".to_owned(); self.headings.len()];
+        let escaped =
+            |text: &String| text.replace('|', "\\|").replace('<', "&lt;").replace('*', "\\*").replace('\n', " ");
+        let line = |cells: &Vec<String>| format!("| {} |\n", cells.iter().map(escaped).collect::<Vec<_>>().join(" | "));
+        [&self.headings, &rule].into_iter().chain(&self.filled()).map(line).collect()
+    }
+
     /// A column is of numbers where every text in it begins as one.
     pub fn numeric(&self, column: usize) -> bool {
         let begins = |text: &String| text.starts_with(|c: char| c.is_ascii_digit() || "-−+.±∞".contains(c));

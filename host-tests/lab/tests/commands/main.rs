@@ -8,4 +8,3 @@ mod ring_down;
 #[path = "../../../report/tests/report/sample.rs"]
 mod sample;
 mod scope;
-mod survey;

@@ -1,6 +1,5 @@
 //! The report's page from made-up figures: whole, safe and small, whatever the figures are.
 
-mod palette;
 mod sample;
 mod sound;
 
@@ -23,9 +22,7 @@ fn a_whole_report_is_one_sound_page() {
 
 #[test]
 fn nothing_to_report_is_a_page_too() {
-    let page = Report::default().page();
-    assert_sound(&page);
-    assert!(page.contains("No variant was run.") && page.contains("No trajectory was recorded."));
+    assert_sound(&Report::default().page());
 }
 
 #[test]
