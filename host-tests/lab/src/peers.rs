@@ -13,16 +13,12 @@
 mod comparison;
 mod count;
 mod drawn;
-mod governing;
 mod markdown;
 mod recording;
 mod replay;
-mod solving;
 
 pub use comparison::{Accuracy, Comparison, Observer, SceneComparison, scenes};
 pub use count::{Cost, Images};
-pub use governing::{Governor, governors};
-pub use markdown::{beside_observers, peers_markdown};
+pub use markdown::peers_markdown;
 pub use recording::Recording;
 pub use replay::Replay;
-pub use solving::{Solver, solvers};

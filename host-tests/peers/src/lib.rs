@@ -11,16 +11,12 @@
 //! | [`ByHand`] as Luenberger | the same | poles of Butterworth's pattern, their radius swept |
 //! | [`DisturbanceObserver`] | motor's inertia | its corner, swept |
 //! | [`DifferenceLowPass`] | motor's inertia | its corner, swept |
-//! | [`kalman`] | 5 states, covariance live | Q, R and first covariance of the library's design |
-//!
-//! Beside the observers there are [`governors`] and [`least_squares`] of balancing, behind the same trait.
+//! | [`kalman`] of `idsp` | 5 states, covariance live | Q, R and first covariance of the library's design |
 //!
 //! All behind a lossy gear get the same friction and the same deadband as the library's observers.
 
 pub mod constant_gain;
-pub mod governors;
 pub mod kalman;
-pub mod least_squares;
 pub mod library;
 pub mod list;
 pub mod luenberger;
@@ -29,9 +25,7 @@ pub mod scene;
 pub mod simple;
 
 pub use constant_gain::{ByHand, ByNalgebra};
-pub use list::{
-    FIRST_GOVERNOR, FIRST_SOLVER, GOVERNORS, PEERS, SOLVERS, SolverVisitor, TUNED, Visitor, with, with_solver,
-};
+pub use list::{PEERS, TUNED, Visitor, with};
 pub use model::{Behind, Model, Peer, Replayed};
 pub use scene::{SCENES, Scene};
 pub use simple::{DifferenceLowPass, DisturbanceObserver};

@@ -1,14 +1,11 @@
 //! The scenes' machines as the observers know them.
 
 use driveline::configure::{HasMechanism, Machine};
-use driveline::design::{
-    BacklashDesign, MechanismDesign, Disturbance, Encoder, Rate, RigidDesign, SpeedLoopDesign, TwoMassDesign,
-};
+use driveline::design::{BacklashDesign, Disturbance, Encoder, MechanismDesign, Rate, RigidDesign, TwoMassDesign};
 use driveline::machine::TwoMass;
 use driveline::settings::{Bases, Gear};
 use driveline_firmware::scenes::{
-    belt_conveyor, blooming_mill, converter, crane_travel, fan, gear_drive, hoist, planetary, plate_mill, punch_press,
-    skip_winch, spindle, strip_mill, vibrating_screen,
+    blooming_mill, crane_travel, hoist, punch_press, skip_winch, spindle, strip_mill,
 };
 
 /// What an observer of a scene's machine is designed from.
@@ -38,12 +35,6 @@ pub struct Scene {
     pub crank: Option<MechanismDesign>,
     /// Bases of fixed point.
     pub bases: Bases,
-    /// Gains of the speed loop.
-    pub speed_loop: SpeedLoopDesign,
-    /// Largest torque (N m).
-    pub torque_limit: f64,
-    /// Ramp of the setpoint (rad/s2).
-    pub ramp: f64,
 }
 
 impl Scene {
@@ -64,9 +55,6 @@ impl Scene {
             backlash: None,
             crank: None,
             bases: M::BASES,
-            speed_loop: M::SPEED_LOOP,
-            torque_limit: M::RATING.torque_limit.0,
-            ramp: M::RAMP,
         }
     }
 
@@ -99,17 +87,10 @@ type Skip = skip_winch::SkipWinch;
 /// The scenes that are run against a plant.
 pub static SCENES: &[Scene] = &[
     Scene::of::<Hoist>(hoist::SCENE).geared::<Hoist>(),
-    Scene::of::<fan::Fan>(fan::SCENE),
     Scene::of::<spindle::Spindle>(spindle::SCENE),
     Scene::of::<strip_mill::StripMill>(strip_mill::SCENE),
-    Scene::of::<planetary::PlanetaryDrive>(planetary::SCENE).geared::<planetary::PlanetaryDrive>(),
     Scene::of::<crane_travel::CraneTravel>(crane_travel::SCENE),
     Scene::of::<Skip>(skip_winch::SCENE).geared::<Skip>().gap::<skip_winch::SkipOnRope>(),
     Scene::of::<punch_press::PunchPress>(punch_press::SCENE).crank::<punch_press::PunchPress>(),
     Scene::of::<blooming_mill::BloomingMill>(blooming_mill::SCENE).gap::<blooming_mill::BloomingMill>(),
-    Scene::of::<converter::Converter>(converter::SCENE).gap::<converter::Converter>(),
-    Scene::of::<plate_mill::PlateMill>(plate_mill::SCENE),
-    Scene::of::<vibrating_screen::VibratingScreen>(vibrating_screen::SCENE),
-    Scene::of::<gear_drive::GearDrive>(gear_drive::SCENE),
-    Scene::of::<belt_conveyor::BeltConveyor>(belt_conveyor::SCENE),
 ];

@@ -5,9 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use driveline_firmware::board::BOARDS;
 
-use crate::peers::{
-    Comparison, Images, Replay, SceneComparison, beside_observers, governors, peers_markdown, scenes, solvers,
-};
+use crate::peers::{Comparison, Images, Replay, SceneComparison, peers_markdown, scenes};
 use crate::stamp::Stamp;
 use cargo_driveline::cli::results::{Destination, check_writable};
 use cargo_driveline::cli::setup::ready;
@@ -17,13 +15,11 @@ use driveline_qemu::setup::Need;
 /// Compare the library's observers with others on the scenes' own runs: errors, instructions, code, stack and state.
 ///
 /// The others are constant gains by hand and by `nalgebra`, Luenberger, a disturbance observer, a low-pass, and the
-/// Kalman filters of `idsp`, `adskalman`, `minikalman` and `kfilter`. They are dependencies of a crate of their own,
-/// which this command builds. Beside them are speed loops of `pid`, `pid-ctrl` and `idsp` on the strip mill, and least
-/// squares of balancing by `nalgebra`.
+/// Kalman filter of `idsp`. They are dependencies of a crate of their own, which this command builds.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo lab peers
-  cargo lab peers --scene hoist fan
+  cargo lab peers --scene hoist spindle
   cargo lab peers --markdown doc/makers/peers.md")]
 pub struct Peers {
     /// Only these scenes
@@ -55,7 +51,7 @@ impl Peers {
         ready(&Need::to_run(BOARDS))?;
         let wanted: Vec<&str> =
             scenes().filter(|scene| self.scene.is_empty() || self.scene.iter().any(|name| name == scene)).collect();
-        let bar = Progress::of(4 + wanted.len() as u64);
+        let bar = Progress::of(2 + wanted.len() as u64);
         let failed = |error: Box<dyn std::error::Error>| Failure::failed(error.to_string());
         bar.says("building the observers for the host");
         let replay = Replay::build().map_err(failed)?;
@@ -69,20 +65,12 @@ impl Peers {
             comparison.scenes.push(compared);
             bar.step();
         }
-        let says = |text: &str| bar.says(text);
-        comparison.governors = governors(&replay, &images, &says).map_err(failed)?;
-        bar.step();
-        comparison.solvers = solvers(&replay, &images, &says).map_err(failed)?;
-        bar.step();
         drop(bar);
         if self.json {
             say_json(&comparison)?;
         } else {
             for scene in &comparison.scenes {
                 say(format_args!("{}\n{}", scene.scene, scene.table()));
-            }
-            for (opening, table) in beside_observers(&comparison) {
-                say(format_args!("{}\n{table}", opening.lines().next().unwrap_or_default().trim_start_matches("## ")));
             }
         }
         markdown.map_or(Ok(()), |file| file.write_and_say(&peers_markdown(&comparison), self.json))

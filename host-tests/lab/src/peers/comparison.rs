@@ -9,10 +9,8 @@ use driveline_report::format::percent;
 use serde::Serialize;
 
 use super::count::{CORES, Cost, Images, cost_cells, cost_headings};
-use super::governing::Governor;
 use super::recording::Recording;
 use super::replay::Replay;
-use super::solving::Solver;
 use crate::drivetrains::SCENES;
 use driveline_closed_loop::lockstep::Imperfections;
 use driveline_closed_loop::units::Units;
@@ -57,10 +55,6 @@ pub struct SceneComparison {
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Comparison {
     pub scenes: Vec<SceneComparison>,
-    /// Speed loops on the strip mill.
-    pub governors: Vec<Governor>,
-    /// Least squares of balancing.
-    pub solvers: Vec<Solver>,
     /// Day and commit.
     pub measured: String,
 }
@@ -75,7 +69,7 @@ const JUDGING: u64 = 10;
 /// Corners of a sweep: two an octave.
 const STEP: f64 = core::f64::consts::SQRT_2;
 
-/// The names of the scenes. The converter's ring is none of them: its four angles are no signal of one observer.
+/// The names of the scenes. The converter ring is none of them: its four angles are no signal of one observer.
 pub fn scenes() -> impl Iterator<Item = &'static str> {
     SCENES.iter().map(|(name, _)| *name).filter(|name| *name != converter_ring::SCENE)
 }

@@ -46,46 +46,19 @@ impl Images {
     pub fn cost(
         &self,
         core: &'static str,
-        peer: [usize; 2],
+        [scene, peer]: [usize; 2],
         corner: f32,
         stretch: &[Tick],
         units: &Units,
     ) -> Result<Option<Cost>, Box<dyn Error>> {
         let inputs: Vec<Input> =
             stretch.iter().enumerate().map(|(index, tick)| words(tick, units, index == 0)).collect();
-        self.cost_of(core, peer, corner, &inputs)
-    }
-
-    /// The same over inputs, less what the frame costs.
-    pub fn net_cost(
-        &self,
-        core: &'static str,
-        [scene, peer]: [usize; 2],
-        value: f32,
-        inputs: &[Input],
-    ) -> Result<Option<Cost>, Box<dyn Error>> {
-        let nothing = self.cost_of(core, [scene, 0], value, inputs)?.map_or(0, |cost| cost.median);
-        let cost = self.cost_of(core, [scene, peer], value, inputs)?;
-        Ok(cost.map(|cost| Cost {
-            median: cost.median.saturating_sub(nothing),
-            worst: cost.worst.saturating_sub(nothing),
-            ..cost
-        }))
-    }
-
-    fn cost_of(
-        &self,
-        core: &'static str,
-        [scene, peer]: [usize; 2],
-        corner: f32,
-        inputs: &[Input],
-    ) -> Result<Option<Cost>, Box<dyn Error>> {
         let Some(image) = self.0.iter().find(|image| image.board.core == core) else { return Ok(None) };
         let mut link = Link::start(image)?;
         let key = (scene << 8 | peer) as u32;
         link.exchange(&Input { asked: [key, corner.to_bits()], ..Input::default() })?;
         let mut instructions = Vec::with_capacity(inputs.len());
-        for input in inputs {
+        for input in &inputs {
             let output = link.exchange(input)?;
             if input.flags & Input::RELEASED != 0 {
                 instructions.push(output.instructions);

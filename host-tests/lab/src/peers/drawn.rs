@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::ops::Range;
 
-use driveline_firmware::scenes::{converter, skip_winch};
+use driveline_firmware::scenes::skip_winch;
 
 use super::recording::Recording;
 use crate::campaign::SCENES as CAMPAIGNS;
@@ -21,21 +21,19 @@ const NOISE: f64 = 0.01;
 
 impl Recording {
     /// One run each of machines drawn from the tolerances of a scene's campaign. Where it has none, motor, inverter and
-    /// encoder are drawn as of any drive; skip winch and converter have their shafts and loads, too. The noise is
+    /// encoder are drawn as of any drive; the skip winch has its shafts and loads, too. The noise is
     /// another one in each.
     pub fn drawn(scene: &str, build: Build, numbers: Range<u64>, seconds: f64) -> Result<Self, Box<dyn Error>> {
         let campaign = CAMPAIGNS.iter().find(|campaign| campaign.name == scene);
         let tolerances = match (campaign, scene) {
             (Some(campaign), _) => campaign.tolerances(),
             (None, skip_winch::SCENE) => Class::General.machine(true, false),
-            (None, converter::SCENE) => Class::General.machine(false, true),
             (None, _) => Class::General.drive(),
         };
         let departing = |by: &Departure| -> Result<Machine, PlantError> {
             match (campaign, scene) {
                 (Some(campaign), _) => campaign.departing(by),
                 (None, skip_winch::SCENE) => drivetrains::skip_winch::departing(by),
-                (None, converter::SCENE) => drivetrains::converter::departing(by),
                 (None, _) => build(),
             }
         };

@@ -4,37 +4,24 @@ use std::fmt::Write;
 
 use super::comparison::{Accuracy, Comparison, Observer};
 use super::count::CORES;
-use super::governing::governors_table;
-use super::solving::solvers_table;
 use driveline_report::Table;
 use driveline_report::format::percent;
 
 /// The text above the tables. It has no measured figure and no winner: those are in the tables.
 const OPENING: &str = include_str!("opening.md");
-/// The texts above the tables of speed loops and of least squares.
-const GOVERNORS: &str = include_str!("governors.md");
-const SOLVERS: &str = include_str!("solvers.md");
 
 /// The page, its tables in Markdown.
 pub fn peers_markdown(comparison: &Comparison) -> String {
     let mut page = OPENING.to_owned();
     let _ = writeln!(page, "\nMeasured on {}.\n", comparison.measured);
-    let _ = writeln!(page, "## The fronts\n\n{}", rows(&fronts(comparison)));
+    let _ = writeln!(page, "## The fronts\n\n{}", fronts(comparison).markdown());
     for scene in &comparison.scenes {
         let heading = format!("## {}, {} ticks at {} Hz", scene.scene, scene.ticks, scene.rate_hz);
-        let _ = writeln!(page, "{heading}\n\n{}", rows(&scene.table()));
-    }
-    for (opening, table) in beside_observers(comparison) {
-        let _ = writeln!(page, "{opening}\n{}", rows(&table));
+        let _ = writeln!(page, "{heading}\n\n{}", scene.table().markdown());
     }
     page.truncate(page.trim_end().len());
     page.push('\n');
     page
-}
-
-/// The other comparisons: heading and text in Markdown, and the table.
-pub fn beside_observers(comparison: &Comparison) -> [(&'static str, Table); 2] {
-    [(GOVERNORS, governors_table(&comparison.governors)), (SOLVERS, solvers_table(&comparison.solvers))]
 }
 
 /// A row a scene and a core: the library's best, the best of the others, and who wins.
@@ -72,13 +59,4 @@ pub fn fronts(comparison: &Comparison) -> Table {
         }
     }
     table
-}
-
-fn rows(table: &Table) -> String {
-    let mut text = String::new();
-    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
-    text.push_str(&line(table.headings()));
-    text.push_str(&format!("|{}\n", "---|".repeat(table.headings().len())));
-    table.filled().iter().for_each(|row| text.push_str(&line(row)));
-    text
 }

@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::io::Write;
 use std::path::PathBuf;
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 
 use driveline_qemu::clone::{target_directory, workspace};
 
@@ -19,8 +19,6 @@ pub struct Listed {
     pub peers: Vec<String>,
     /// Those that have a corner to tune.
     pub tuned: Vec<String>,
-    /// Names of the speed loops.
-    pub governors: Vec<String>,
 }
 
 /// The program.
@@ -52,31 +50,10 @@ impl Replay {
                 Some(("scene", name)) => listed.scenes.push(name.to_owned()),
                 Some(("peer", name)) => listed.peers.push(name.to_owned()),
                 Some(("tuned", name)) => listed.tuned.push(name.to_owned()),
-                Some(("governor", name)) => listed.governors.push(name.to_owned()),
                 _ => return Err(format!("{} lists `{line}`", self.0.display()).into()),
             }
         }
         Ok(listed)
-    }
-
-    /// A speed loop of a scene in lock-step, both by their numbers.
-    pub fn govern(&self, [scene, governor]: [usize; 2]) -> Result<Child, Box<dyn Error>> {
-        let mut command = Command::new(&self.0);
-        command.args(["govern".to_owned(), scene.to_string(), governor.to_string()]);
-        Ok(command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn()?)
-    }
-
-    /// The solvers of least squares: name, error of the weights, residual.
-    pub fn solvers(&self) -> Result<Vec<(String, [f64; 2])>, Box<dyn Error>> {
-        let output = Command::new(&self.0).arg("solvers").output()?;
-        let mut solvers = Vec::new();
-        for line in String::from_utf8(output.stdout)?.lines() {
-            let mut words = line.splitn(3, ' ');
-            let mut word = || words.next().ok_or_else(|| format!("a solver's line `{line}`"));
-            let figures = [word()?.parse()?, word()?.parse()?];
-            solvers.push((word()?.to_owned(), figures));
-        }
-        Ok(solvers)
     }
 
     /// Estimates of an observer of a scene over a recording, both by their numbers; empty where the machine has no such

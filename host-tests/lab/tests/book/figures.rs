@@ -151,27 +151,6 @@ fn the_price_of_the_rainflow_is_that_of_the_strip_mill() {
     assert_eq!(numbers(&sentence), [price("f32", "m4f"), price("fixed", "m4f"), price("fixed", "m3")]);
 }
 
-/// The page of peers outside its tables: the texts of the command and headings from the run, without a measured figure.
-#[test]
-fn the_prose_of_the_peers_is_that_of_the_command_and_quotes_no_result() {
-    let read = |path: &str| std::fs::read_to_string(root().join(path)).unwrap();
-    let page = read("doc/makers/peers.md");
-    let is_prose = |line: &&str| !line.is_empty() && !line.starts_with('|');
-    let written: Vec<&str> = page.lines().filter(is_prose).collect();
-    let texts = ["opening", "governors", "solvers"].map(|name| read(&format!("host-tests/lab/src/peers/{name}.md")));
-    let is_heading = |line: &&str| *line == "## The fronts" || (line.starts_with("## ") && line.ends_with(" Hz"));
-    let is_of_the_run = |line: &&str| is_heading(line) || line.starts_with("Measured on ");
-    let rest: Vec<&str> = written.iter().copied().filter(|line| !is_of_the_run(line)).collect();
-    let expected: Vec<&str> = texts.iter().flat_map(|text| text.lines().filter(is_prose)).collect();
-    assert_eq!(rest, expected);
-    // a share with decimals is a result: what is stated beforehand is whole
-    for line in rest {
-        let words: Vec<&str> = line.split_whitespace().collect();
-        let quoted = words.windows(2).find(|pair| pair[1].starts_with('%') && pair[0].contains('.'));
-        assert!(quoted.is_none(), "{quoted:?} in `{line}`");
-    }
-}
-
 /// In the last run of the peers no other observer wins in any scene: where one does, the scene takes it or the
 /// library's gets better.
 #[test]

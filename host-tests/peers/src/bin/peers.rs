@@ -3,10 +3,6 @@
 //! One observer in lock-step with a host: an input in, a tick, an output with its instructions out. The first input's
 //! request says which: scene and observer in the key, their corner as the value.
 
-use core::alloc::{GlobalAlloc, Layout};
-use core::cell::UnsafeCell;
-use core::sync::atomic::{AtomicUsize, Ordering};
-
 use cortex_m_rt::entry;
 use driveline_firmware::board::json_line::Line;
 use driveline_firmware::board::{Board, Link, ThisBoard};
@@ -20,33 +16,6 @@ use driveline_peers::{PEERS, Replayed, SCENES, Visitor, with};
 extern "C" fn panic_is_reachable() -> ! {
     loop {}
 }
-
-/// A heap that only grows: `minikalman` puts its buffers there when it is built.
-struct Heap {
-    bytes: UnsafeCell<[u64; 512]>,
-    used: AtomicUsize,
-}
-
-// SAFETY: there is one thread and no interrupt.
-unsafe impl Sync for Heap {}
-
-// SAFETY: pieces do not overlap, since `used` only grows; they begin at multiples of eight.
-unsafe impl GlobalAlloc for Heap {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        let from = self.used.load(Ordering::Relaxed);
-        let to = (from + layout.size()).next_multiple_of(8);
-        if to > size_of_val(&self.bytes) || layout.align() > 8 {
-            return core::ptr::null_mut();
-        }
-        self.used.store(to, Ordering::Relaxed);
-        self.bytes.get().cast::<u8>().wrapping_add(from)
-    }
-
-    unsafe fn dealloc(&self, _: *mut u8, _: Layout) {}
-}
-
-#[global_allocator]
-static HEAP: Heap = Heap { bytes: UnsafeCell::new([0; 512]), used: AtomicUsize::new(0) };
 
 #[inline(never)]
 fn tick<R: Replayed>(observer: &mut R, input: &Input, output: &mut Output) {
@@ -90,7 +59,7 @@ impl<L: Link> Visitor for Served<'_, L> {
             .text("board", ThisBoard::FACTS.name)
             .number("ticks", ticks)
             .number("stack", stack.bytes())
-            .number("state", (size_of::<R>() + HEAP.used.load(Ordering::Relaxed)) as u32)
+            .number("state", size_of::<R>() as u32)
             .number("overhead", counter.overhead())
             .number("function", tick::<R> as fn(&mut R, &Input, &mut Output) as usize as u32);
         self.board.print(line.finish());
