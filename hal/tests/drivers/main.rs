@@ -12,6 +12,5 @@ mod hoist;
 #[allow(dead_code, reason = "the tests of the axis use more of it")]
 #[path = "../../../tests/library/axis/scripted.rs"]
 mod scripted;
-mod table;
 mod torque;
 mod vibration;
