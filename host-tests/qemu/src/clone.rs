@@ -30,25 +30,3 @@ pub fn target_directory() -> Result<PathBuf, NoClone> {
     let named = named.map_or_else(|| root.join("target"), PathBuf::from);
     Ok(std::path::absolute(&named).unwrap_or(named))
 }
-
-#[cfg(test)]
-mod tests {
-    use std::fs;
-
-    use super::{ROOT, root, workspace};
-
-    #[test]
-    fn a_clone_is_found_from_any_folder_in_it_and_from_no_other() {
-        let other = tempfile::tempdir().unwrap();
-        assert_eq!(root(other.path()), None);
-        for file in ROOT {
-            let file = other.path().join(file);
-            fs::create_dir_all(file.parent().unwrap()).unwrap();
-            fs::write(file, "").unwrap();
-        }
-        let deep = other.path().join("a/b");
-        fs::create_dir_all(&deep).unwrap();
-        assert_eq!(root(&deep).as_deref(), Some(other.path()));
-        assert!(workspace().unwrap().join("budgets.toml").exists());
-    }
-}

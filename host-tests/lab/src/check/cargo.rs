@@ -105,35 +105,3 @@ fn line(program: &OsStr, arguments: &[&str]) -> String {
     let name = Path::new(program).file_name().unwrap_or(program);
     format!("{} {}", name.display(), arguments.join(" "))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::{Count, Counter, result};
-
-    #[test]
-    fn a_runners_summary_is_counted() {
-        let ok = "test result: ok. 12 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.00s";
-        assert_eq!(result(ok), Some((12, 0)));
-        assert_eq!(result("test result: FAILED. 3 passed; 2 failed; 0 ignored"), Some((3, 2)));
-        assert_eq!(result("test result_of_something ... ok"), None);
-    }
-
-    /// A runner calls a test passed that returns early; two lines of a test are one, of two runners' two.
-    #[test]
-    fn a_skipped_test_is_not_a_passed_one() {
-        let mut counter = Counter::default();
-        let ended = "test result: ok. 12 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.00s";
-        for line in [
-            "test wheel::one ... skipped: wheel::one: no first.csv",
-            "skipped: wheel::one: no second.csv",
-            "skipped: wheel::two: no compiler: it is not on the path",
-            "skipped: Chromium is not installed",
-            ended,
-            "skipped: wheel::two: no compiler",
-            ended,
-        ] {
-            counter.take(line);
-        }
-        assert_eq!(counter.count, Count { passed: 10 + 11, failed: 0, skipped: 3 });
-    }
-}

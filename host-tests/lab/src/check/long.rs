@@ -36,7 +36,7 @@ pub const LONG: [Step; 6] = [
     },
     Step {
         name: "attacks",
-        content: "6,000 malformed files, streams and argument lists, a disk that is full at every write, signals",
+        content: "6,000 malformed files and streams, a disk that is full at every write, signals",
         repeat: "cargo lab check --long --only attacks",
         run: attacks,
     },
@@ -65,7 +65,7 @@ fn starts(voice: &Voice) -> Result<Count, Failed> {
 
 fn attacks(voice: &Voice) -> Result<Count, Failed> {
     let attacks = [
-        "six_thousand_malformed_files_streams_and_arguments",
+        "six_thousand_malformed_files_and_streams",
         "a_full_disk_at_every_write_loses_nothing",
         "signals_at_fifty_moments",
     ];

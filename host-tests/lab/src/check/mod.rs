@@ -1,11 +1,10 @@
 //! `cargo lab check`: everything that must hold before a commit, in order, up to the first failure; the long runs
-//! on demand, all of them, with their last results on a page.
+//! on demand, all of them.
 
 mod cargo;
 mod clock;
 pub mod comparison;
 mod each;
-pub mod last;
 mod long;
 mod pages;
 mod step;
@@ -71,20 +70,14 @@ pub enum CheckError {
     /// The long runs that failed.
     #[error("failed: {0}")]
     Long(String),
-    /// Why a step's result could not be written to the page.
-    #[error("{0}")]
-    Kept(String),
 }
 
-/// Runs the steps up to the first failure, or all long runs; each result is handed on to be kept. Says each with its
-/// time, and at the end the closing line `N passed, N failed`, with `, N skipped` where tests were skipped.
+/// Runs the steps up to the first failure, or all long runs. Says each with its time, and at the end the closing line
+/// `N passed, N failed`, with `, N skipped` where tests were skipped.
 ///
 /// # Errors
-/// No such step, a step that failed, a result that cannot be kept.
-pub fn run(
-    options: &Options,
-    mut keep: impl FnMut(&Step, &Done) -> Result<(), String>,
-) -> Result<Vec<Done>, CheckError> {
+/// No such step, a step that failed.
+pub fn run(options: &Options) -> Result<Vec<Done>, CheckError> {
     let voice = Voice::new(options.json);
     let (kind, all): (_, &[Step]) = if options.long { ("long step", &LONG) } else { ("step", &STEPS) };
     let chosen = |step: &&Step| options.only.as_ref().is_none_or(|only| only == step.name);
@@ -96,7 +89,6 @@ pub fn run(
     let (mut all, mut failed) = (Vec::new(), Vec::new());
     for step in steps {
         let done = once(step, &voice);
-        keep(step, &done).map_err(CheckError::Kept)?;
         let error = done.error.clone();
         all.push(done);
         let Some(message) = error else { continue };

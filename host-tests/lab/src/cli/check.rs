@@ -1,14 +1,10 @@
 //! `cargo lab check`: everything that must hold before a commit, and the long runs.
 
-use std::path::{Path, PathBuf};
-
 use clap::Args;
 use clap::builder::PossibleValue;
 
 use super::Failure;
-use crate::check::last::Page;
-use crate::check::{CheckError, Done, LONG, Options, STEPS, Step, run};
-use cargo_driveline::cli::results;
+use crate::check::{CheckError, LONG, Options, STEPS, run};
 use driveline_qemu::clone::workspace;
 
 /// Check everything: formatting, clippy, packages, the book, firmware, examples, tests, self-tests, the budgets.
@@ -18,7 +14,6 @@ use driveline_qemu::clone::workspace;
 #[command(after_help = "Examples:
   cargo lab check
   cargo lab check --only budgets --json
-  cargo lab check --long --markdown doc/makers/long-runs.md
   cargo lab check --long --only power-cuts")]
 pub struct Check {
     /// Only this step
@@ -27,9 +22,6 @@ pub struct Check {
     /// The long runs: minutes to hours each
     #[arg(long)]
     long: bool,
-    /// Where the last results go as Markdown, for the book: the rows of the steps that run are replaced
-    #[arg(long, value_name = "FILE", requires = "long")]
-    markdown: Option<PathBuf>,
     /// Print one JSON object a step
     #[arg(long)]
     pub json: bool,
@@ -51,35 +43,10 @@ impl Check {
     /// Runs the steps.
     pub fn execute(&self) -> Result<(), Failure> {
         workspace().map_err(|error| Failure::usage(error.to_string()))?;
-        let file = self.markdown.as_ref().map(|path| results::Destination::chosen("results", path));
-        results::check_writable(&[], file.as_ref())?;
-        let mut page = self.markdown.as_deref().map(Page::read).transpose().map_err(|error| {
-            let path = self.markdown.as_deref().unwrap_or(Path::new("")).display();
-            Failure::usage(format!("{path}: {error}"))
-        })?;
-        let keep = |step: &Step, done: &Done| match (&file, &mut page) {
-            (Some(file), Some(page)) => file.write(&page.with(step, done)).map_err(|failure| failure.to_string()),
-            _ => Ok(()),
-        };
-        match run(&Options { json: self.json, long: self.long, only: self.only.clone() }, keep) {
+        match run(&Options { json: self.json, long: self.long, only: self.only.clone() }) {
             Ok(_) => Ok(()),
             Err(error @ CheckError::NoSuchStep(..)) => Err(Failure::usage(error.to_string())),
             Err(error) => Err(Failure::failed(error.to_string())),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use std::collections::BTreeSet;
-
-    use super::names;
-
-    #[test]
-    fn every_step_is_offered_once() {
-        let names = names();
-        let once: BTreeSet<&str> = names.iter().map(|name| name.get_name()).collect();
-        assert_eq!(once.len(), names.len());
-        assert!(["pages", "budgets", "seeds"].iter().all(|name| once.contains(name)), "{once:?}");
     }
 }

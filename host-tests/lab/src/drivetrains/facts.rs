@@ -1,8 +1,6 @@
 //! The report's facts and single figures.
 
-use driveline::configure::{self, Machine as _};
-use driveline::machine::{Chain, Match};
-use driveline_firmware::scenes::hoist::{CutAtRope, Hoist};
+use driveline::configure;
 
 use driveline_closed_loop::figures::{deviations, peaks};
 use driveline_closed_loop::lockstep::Trace;
@@ -32,61 +30,6 @@ pub fn scene<M: configure::Machine>(name: &'static str, counts: u32) -> Machine 
         rated_speed: M::RATING.speed.0,
         bases: M::BASES,
     }
-}
-
-/// The machine and its reduction.
-pub fn of_hoist() -> Vec<Fact> {
-    let torque_noise = NOISE * Hoist::<10_000>::RATING.torque.0;
-    let (two, cut) = (Hoist::<10_000>::TWO_MASS, CutAtRope::<10_000>::TWO_MASS);
-    let modal = Chain::reduce(&Hoist::<10_000>::CHAIN, Match::ModalTruncation);
-    let hertz = |rate: f64| rate / core::f64::consts::TAU;
-    let design = Hoist::<10_000>::OBSERVER;
-    let reduction = |name: &str, two: &driveline::machine::TwoMass| {
-        fact(
-            name,
-            format!(
-                "{:.4} and {:.4} kg m², {:.1} N m/rad; error at most {:.1} % of the motor's first jump in speed",
-                two.motor_inertia,
-                two.load_inertia,
-                two.stiffness,
-                100.0 * two.error.worst
-            ),
-        )
-    };
-    let sd = design.standard_deviation;
-    vec![
-        fact(
-            "antiresonance, resonance",
-            format!("{:.2} Hz, {:.2} Hz", hertz(two.antiresonance()), hertz(two.resonance())),
-        ),
-        reduction("reduced by resonance and antiresonance", &two),
-        reduction("reduced by modal truncation", &modal),
-        reduction("textbook cut at the rope", &cut),
-        fact(
-            "mode left out",
-            format!(
-                "{:.1} Hz, with {:.0} % of the rigid motion's share at the motor",
-                hertz(two.error.next_mode),
-                100.0 * two.error.next_share
-            ),
-        ),
-        fact(
-            "error of the semi-implicit step at 10 kHz",
-            format!(
-                "{:.2} % over a period of the resonance; the design takes it below 1 %",
-                100.0 * design.semi_implicit.fidelity.error_bound
-            ),
-        ),
-        fact(
-            "predicted standard deviations",
-            format!(
-                "shaft torque {:.2} N m, load speed {:.2} rad/s, load torque {:.1} N m",
-                sd.shaft_torque, sd.load_speed, sd.load_torque
-            ),
-        ),
-        fact("torque noise", format!("{:.1} N m rms in every tick, white", torque_noise)),
-        fact("encoder", "2048 lines, 8192 counts a turn".into()),
-    ]
 }
 
 /// A machine as its observer has it, and what the design says of it.

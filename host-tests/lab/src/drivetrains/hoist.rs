@@ -188,7 +188,7 @@ fn with(scenarios: Vec<Scenario>) -> Machine {
     Machine {
         summary: "A 12 t crane hoist, observed and governed from the motor's angle and torque alone: the firmware \
                   of every variant runs in QEMU, tick by tick against a full solver of the whole machine.",
-        facts: facts::of_hoist(),
+        facts: facts::of_design::<Hoist<10_000>>(8192),
         notes: vec![
             "The shaft torque is the rope's pull at the motor, behind the gear's loss.",
             "The textbook cut, the modal truncation and the match of resonance and antiresonance give equal estimates \

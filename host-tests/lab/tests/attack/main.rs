@@ -1,9 +1,8 @@
-//! Attacks on the command: malformed files, streams and argument lists, results onto sources, a full disk, signals.
+//! Attacks on the command: malformed files and streams, results onto sources, a full disk, signals.
 //!
 //! Each attack has a number, from which all of it follows. `cargo test` runs some; the whole runs are ignored for their
 //! length and are steps of `cargo lab check --long`.
 
-mod arguments;
 mod cases;
 mod disk;
 mod limits;

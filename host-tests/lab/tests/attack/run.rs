@@ -115,8 +115,7 @@ impl Place {
         found
     }
 
-    /// What is wrong with the files after a run: sources that have changed, what is left, pages that are half. A result
-    /// `*` is any file.
+    /// What is wrong with the files after a run: sources that have changed, what is left, pages that are half.
     pub fn faults(&self, results: &[&str], done: bool) -> Vec<String> {
         let mut faults = Vec::new();
         for name in Self::files(&self.outside("tmp")).into_keys().chain(Self::files(&self.outside("empty")).into_keys())
@@ -130,8 +129,7 @@ impl Place {
             }
         }
         for (name, bytes) in there {
-            let named =
-                results.iter().any(|result| *result == "*" || Path::new(result) == name) || name.starts_with("report");
+            let named = results.iter().any(|result| Path::new(result) == name) || name.starts_with("report");
             match bytes {
                 None if name == Path::new("report") => {}
                 Some(bytes) if named && done => {

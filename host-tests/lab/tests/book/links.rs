@@ -1,8 +1,6 @@
 //! Links, and the paths of the repository that a page names.
 
-use std::collections::HashSet;
 use std::fs;
-use std::path::Path;
 
 use super::pages::{Page, all, root};
 
@@ -60,41 +58,4 @@ fn the_table_of_contents_is_complete() {
     listed.sort();
     pages.sort();
     assert_eq!(listed, pages);
-}
-
-/// A type that a page names in backticks is one of the tree: a word in capitals and small letters.
-#[test]
-fn every_type_that_a_page_names_is_there() {
-    let mut words = HashSet::new();
-    for folder in ["src", "hal/src", "firmware/src", "host-tests"] {
-        sources(&root().join(folder), &mut words);
-    }
-    let mut unknown = Vec::new();
-    // the glossary has the names that were given up
-    for page in all().into_iter().filter(|page| !page.path.ends_with("glossary.md")) {
-        for code in &page.code {
-            let name =
-                code.split(['<', '(', '{', '[']).next().unwrap_or_default().split("::").last().unwrap_or_default();
-            let of_a_type = name.starts_with(|c: char| c.is_ascii_uppercase())
-                && name.contains(|c: char| c.is_ascii_lowercase())
-                && name.chars().all(char::is_alphanumeric);
-            if of_a_type && !words.contains(name) {
-                unknown.push(format!("{}: {code}", page.path.display()));
-            }
-        }
-    }
-    assert!(unknown.is_empty(), "types that are not there:\n{}", unknown.join("\n"));
-}
-
-/// Every word of the Rust sources in a folder.
-fn sources(folder: &Path, words: &mut HashSet<String>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            sources(&path, words);
-        } else if path.extension().is_some_and(|end| end == "rs") {
-            let text = fs::read_to_string(&path).unwrap();
-            words.extend(text.split(|c: char| !c.is_alphanumeric() && c != '_').map(str::to_owned));
-        }
-    }
 }

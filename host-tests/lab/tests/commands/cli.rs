@@ -21,70 +21,6 @@ fn json(text: &str) -> serde_json::Value {
 
 const HOIST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../command/machines/hoist.toml");
 
-#[test]
-fn every_command_explains_itself_with_examples() {
-    for command in [
-        "run",
-        "report",
-        "modes",
-        "design",
-        "rotor",
-        "balancing",
-        "campaign",
-        "simulate",
-        "cosim",
-        "watch",
-        "check",
-        "setup",
-        "identify",
-        "replay",
-    ] {
-        let output = driveline(&[command, "--help"]);
-        assert!(output.status.success());
-        let help = out(&output);
-        assert!(help.contains("Examples:") && help.contains("--json") && help.contains("Usage: cargo lab"), "{help}");
-    }
-}
-
-#[test]
-fn modes_as_json_are_those_of_the_closed_form() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("pair.toml");
-    let text = std::fs::read_to_string(HOIST).unwrap();
-    let settings = &text[text.find("[encoder]").unwrap()..];
-    let elements = "name = \"pair\"\n[[element]]\nkind = \"motor\"\ninertia = 2.0\n[[element]]\nkind = \"shaft\"\n\
-                    stiffness = 600.0\n[[element]]\nkind = \"rotor\"\ninertia = 3.0\n";
-    std::fs::write(&file, format!("{elements}{settings}")).unwrap();
-    let output = driveline(&["modes", file.to_str().unwrap(), "--json"]);
-    let modes = json(&out(&output));
-    // omega^2 = k (J1 + J2)/(J1 J2) = 500 and, with the motor locked, k/J2 = 200 [derived; headings: Huang 1987 ch. 3
-    // to 7].
-    let frequency = modes["resonances"][0]["frequency"].as_f64().unwrap();
-    assert!((frequency / 500f64.sqrt() - 1.0).abs() < 1e-14);
-    assert!((modes["antiresonances"][0].as_f64().unwrap() / 200f64.sqrt() - 1.0).abs() < 1e-14);
-    // Momentum: J1 a1 + J2 a2 = 0.
-    let shape = [0, 1].map(|mass| modes["resonances"][0]["shape"][mass].as_f64().unwrap());
-    assert!((2.0 * shape[0] + 3.0 * shape[1]).abs() < 1e-14);
-    assert!(modes["sensitivity"][0]["resonance"].is_null());
-}
-
-#[test]
-fn a_rigid_machine_has_no_vibrations_but_a_design() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("rigid.toml");
-    let text = std::fs::read_to_string(HOIST).unwrap();
-    let settings = &text[text.find("[encoder]").unwrap()..];
-    std::fs::write(&file, format!("name = \"7 rigid\"\n[[element]]\nkind = \"motor\"\ninertia = 2.0\n{settings}"))
-        .unwrap();
-    let path = file.to_str().unwrap();
-    assert!(driveline(&["modes", path, "--json"]).status.success());
-    assert!(driveline(&["modes", path]).status.success());
-    let plan = json(&out(&driveline(&["design", path, "--json"])));
-    assert_eq!(plan["observer"], "rigid");
-    let rust = out(&driveline(&["design", path, "--emit", "rust"]));
-    assert!(rust.contains("pub const MACHINE_7_RIGID_MODEL: Rigid"), "{rust}");
-}
-
 /// What the constants leave out of a file is said beneath them.
 #[test]
 fn constants_without_tolerances_and_actuator_say_so() {
@@ -114,26 +50,6 @@ fn viscous_damping_is_shown() {
     assert!(some.contains("viscous N m s/rad") && some.contains("0.375"), "{some}");
     // what coasts against the ground does not swing
     assert!(some.contains("decay without vibration") && much.contains("decay without vibration"), "{much}");
-}
-
-/// `design`, `campaign` and `new` select the same observer: here one mass would do, but its loop lacks phase. The
-/// sentences name keys of the file, not the library's constants.
-#[test]
-fn design_campaign_and_new_select_the_same_observer() {
-    let folder = tempfile::tempdir().unwrap();
-    let axis = concat!(env!("CARGO_MANIFEST_DIR"), "/../command/machines/axis.toml");
-    let plan = json(&out(&driveline(&["design", axis, "--json"])));
-    assert_eq!((&plan["need"]["observer"], &plan["predicted"]["observer"]), (&"rigid".into(), &"exact".into()));
-    let shown = out(&driveline(&["design", axis]));
-    assert!(shown.contains("two masses by the exact step; one mass would do, but lacks margin"), "{shown}");
-    assert!(!shown.contains("ROBUSTNESS") && !shown.contains("SpeedLoopTuning"), "{shown}");
-    let project = folder.path().join("axis");
-    let written = json(&out(&driveline(&["new", project.to_str().unwrap(), "--machine", axis, "--json"])));
-    assert_eq!(written["observer"], "GearedObserver<TwoMassObserver>");
-    let mut campaign = Command::new(env!("CARGO_BIN_EXE_lab"));
-    let drawn =
-        campaign.args(["campaign", axis, "--draws", "2", "--json"]).current_dir(folder.path()).output().unwrap();
-    assert_eq!(json(&out(&drawn))["variant"], "feed-axis/two-mass", "{}", out(&drawn));
 }
 
 /// Nothing damps the ship's upper vibration, which the two masses leave out: no margins, a reason, and no constants.
@@ -361,15 +277,4 @@ fn a_machine_comes_through_a_pipe() {
         assert!(output.status.success(), "{command} {file}: {}", err(&output));
         assert!(json(&out(&output)).is_object(), "{command} {file}");
     }
-}
-
-#[test]
-fn a_scene_or_a_variant_that_is_not_there_is_refused() {
-    let output = driveline(&["run", "balanced-fan", "--variants", "nonsense"]);
-    let text = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(2));
-    assert!(text.contains("no variant of `balanced-fan` contains `nonsense`"), "{text}");
-    let output = driveline(&["run", "turbine"]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8(output.stderr).unwrap().contains("`flexible`"));
 }

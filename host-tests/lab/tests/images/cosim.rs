@@ -10,7 +10,8 @@ use std::process::{Command, Output};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
-use super::fmu::{MACHINE, ended_well};
+use super::export::ended_well;
+use super::fmu::MACHINE;
 
 fn cosim(drive: &Path, machine: &Path, arguments: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_lab"));

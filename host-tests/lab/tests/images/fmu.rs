@@ -16,6 +16,7 @@ use driveline_solver::plant::{Chain, Plant, Shaft, Start};
 use tempfile::TempDir;
 use zip::ZipArchive;
 
+use super::export::ended_well;
 use super::export::hoist::Hoist;
 
 type HoistDrive = Drive<f32, GearedObserver<SemiImplicitObserver>, SpeedLoop>;
@@ -25,12 +26,6 @@ pub const MACHINE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../command/machi
 fn export(arguments: &[&str], out: &Path) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_lab"));
     command.arg("export").args(arguments).arg("--out").arg(out).output().unwrap()
-}
-
-#[track_caller]
-pub fn ended_well(ended: &Output) {
-    let said = [&ended.stdout, &ended.stderr].map(|bytes| String::from_utf8_lossy(bytes).into_owned());
-    assert!(ended.status.success(), "{}\n{}", ended.status, said.join("\n"));
 }
 
 /// An element of XML without its content: name and attributes.

@@ -1,11 +1,5 @@
 //! The link to QEMU against the same scene on the host, bit for bit.
 
-use std::os::unix::process::ExitStatusExt;
-use std::path::Path;
-use std::process::{Command, Stdio};
-use std::thread;
-use std::time::Duration;
-
 use driveline_closed_loop::actuator::ActuatorErrors;
 use driveline_closed_loop::departure::Departure;
 use driveline_closed_loop::lockstep::{Imperfections, follow};
@@ -89,18 +83,6 @@ fn a_scene_that_does_nothing_uses_one_frame_and_writes_eight_words() {
 }
 
 #[test]
-fn two_links_run_at_once() {
-    let inputs = on_host("hoist/fixed/rigid/10000", 3, 2000);
-    let alone = run("hoist/fixed/rigid/10000", BOARDS[0], &inputs);
-    thread::scope(|scope| {
-        let both = [0, 1].map(|_| scope.spawn(|| run("hoist/fixed/rigid/10000", BOARDS[0], &inputs)));
-        for one in both {
-            assert_eq!(one.join().unwrap(), alone);
-        }
-    });
-}
-
-#[test]
 fn a_link_that_is_dropped_leaves_no_qemu_behind() {
     let image = build("empty/f32/none/10000", BOARDS[0], Program::ControlLoop, |_| {}).unwrap();
     for _ in 0..3 {
@@ -121,53 +103,6 @@ fn a_qemu_that_dies_is_an_error_that_names_image_and_tick() {
     for expected in ["self_test of empty/f32/none/10000 on mps2-an386 at tick 0", "QEMU has ended", "fingerprint"] {
         assert!(error.contains(expected), "{error}");
     }
-}
-
-/// SIGTERM at five moments of a run: its QEMU ends with it, and of its temporary folders none is left.
-#[cfg(target_os = "linux")]
-#[test]
-fn a_signal_leaves_neither_a_process_nor_a_folder() {
-    let folder = tempfile::tempdir().unwrap();
-    let images = [("empty/f32/none/10000", "m4f"), ("hoist/f32/reduced/10000", "m4f")];
-    for (variant, core) in images {
-        build(variant, board(core).unwrap(), Program::ControlLoop, |_| {}).unwrap();
-    }
-    let mut in_qemu = 0;
-    for moment in 0..5 {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_lab"));
-        command.args(["run", "hoist", "--variants", "f32/m4f/reduced/10000", "--json", "--html", "/dev/null"]);
-        let said = tempfile::NamedTempFile::new().unwrap();
-        let errors = said.reopen().unwrap();
-        let mut child = command.env("TMPDIR", folder.path()).stdout(Stdio::null()).stderr(errors).spawn().unwrap();
-        // QEMU stands in its folder: the signal comes then, or a little later
-        let runs = || working_in(folder.path());
-        while runs() == 0 && matches!(child.try_wait(), Ok(None)) {
-            thread::sleep(Duration::from_millis(5));
-        }
-        thread::sleep(Duration::from_millis(40 * moment));
-        in_qemu += usize::from(runs() > 0);
-        assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
-        let status = child.wait().unwrap();
-        assert_eq!(status.signal(), Some(15), "{status}: {}", std::fs::read_to_string(said.path()).unwrap());
-        // the kernel may still be at it
-        for _ in 0..100 {
-            if runs() == 0 {
-                break;
-            }
-            thread::sleep(Duration::from_millis(10));
-        }
-        assert_eq!(runs(), 0, "a process is left");
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "a folder is left");
-    }
-    assert!(in_qemu > 0, "no signal came while QEMU ran");
-}
-
-/// Processes whose working directory is below a folder.
-#[cfg(target_os = "linux")]
-fn working_in(folder: &Path) -> usize {
-    let processes = std::fs::read_dir("/proc").unwrap().flatten();
-    let place = |process: std::fs::DirEntry| std::fs::read_link(process.path().join("cwd")).ok();
-    processes.filter_map(place).filter(|place| place.starts_with(folder)).count()
 }
 
 /// The learners' runs, in closed loop with the plant of a heavier motor whose torque is off: the inputs of the

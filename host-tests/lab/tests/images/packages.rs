@@ -8,7 +8,7 @@ use std::process::Command;
 use driveline_lab::check::skip;
 use driveline_qemu::link::Emulator;
 
-use super::fmu::ended_well;
+use super::export::ended_well;
 
 const STUBS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/images");
 

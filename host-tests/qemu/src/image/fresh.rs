@@ -35,25 +35,3 @@ fn add(path: &Path, hasher: &mut DefaultHasher) -> io::Result<()> {
     entries.sort();
     entries.iter().try_for_each(|entry| add(entry, hasher))
 }
-
-#[cfg(test)]
-mod tests {
-    use std::fs;
-
-    use super::{SOURCES, fingerprint};
-
-    #[test]
-    fn a_changed_source_or_command_changes_the_fingerprint() {
-        let root = tempfile::tempdir().unwrap();
-        for source in SOURCES {
-            let path = root.path().join(source);
-            fs::create_dir_all(path.parent().unwrap()).unwrap();
-            fs::write(path, "a").unwrap();
-        }
-        let first = fingerprint(root.path(), "firmware", "build").unwrap();
-        assert_eq!(fingerprint(root.path(), "firmware", "build").unwrap(), first);
-        assert_ne!(fingerprint(root.path(), "firmware", "build --release").unwrap(), first);
-        fs::write(root.path().join("firmware"), "b").unwrap();
-        assert_ne!(fingerprint(root.path(), "firmware", "build").unwrap(), first);
-    }
-}

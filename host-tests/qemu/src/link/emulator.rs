@@ -69,26 +69,3 @@ fn library_path(folder: &Path) -> OsString {
     // a colon in the user's own path cannot be written in a search path
     env::join_paths(path).unwrap_or_default()
 }
-
-#[cfg(test)]
-mod tests {
-    use std::fs;
-
-    use super::Emulator;
-
-    #[test]
-    fn a_copy_is_started_with_its_own_libraries_of_whatever_architecture() {
-        let folder = tempfile::tempdir().unwrap();
-        let (wide, narrow) = (folder.path().join("usr/lib/riscv64-linux-gnu"), folder.path().join("lib/arm-linux-gnu"));
-        fs::create_dir_all(&wide).unwrap();
-        fs::create_dir_all(&narrow).unwrap();
-        let command = Emulator::Copy(folder.path().into()).command();
-        let (_, value) = command.get_envs().find(|(name, _)| *name == "LD_LIBRARY_PATH").unwrap();
-        let path: Vec<_> = std::env::split_paths(value.unwrap()).collect();
-        assert!(path.contains(&wide) && path.contains(&narrow), "{path:?}");
-        assert_eq!(command.get_program(), folder.path().join("usr/bin/qemu-system-arm"));
-        let data = folder.path().join("usr/share/qemu");
-        assert_eq!(command.get_args().collect::<Vec<_>>(), ["-L".as_ref(), data.as_os_str()]);
-        assert!(!Emulator::Copy(folder.path().into()).answers());
-    }
-}
