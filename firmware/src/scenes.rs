@@ -22,7 +22,6 @@ macro_rules! drivetrains {
             skip_winch
             punch_press
             blooming_mill
-            converter
             converter_ring
         }
     };
@@ -40,7 +39,6 @@ macro_rules! others {
             flexible
             surface_grinder
             commission
-            tube_mill
             test_rig
         }
     };

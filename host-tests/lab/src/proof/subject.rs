@@ -94,13 +94,11 @@ impl Subject {
             ("skip on rope", Self::of::<skip_winch::SkipOnRope>()),
             ("punch press", Self::of_one_mass::<punch_press::PunchPress>()),
             ("blooming mill", Self::of::<blooming_mill::BloomingMill>()),
-            ("converter", Self::of::<converter::Converter>()),
             ("converter ring", Self::of::<converter_ring::ConverterRing>()),
             ("balanced fan", Self::of::<balanced_fan::BalancedFan>()),
             ("flexible", Self::of::<flexible::Flexible>()),
             ("surface grinder", Self::of::<surface_grinder::SurfaceGrinder>()),
             ("test rig", Self::of::<test_rig::TestRig>()),
-            ("tube mill", Self::of::<tube_mill::TubeMill>()),
         ]
     }
 }

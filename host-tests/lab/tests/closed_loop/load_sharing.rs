@@ -3,12 +3,17 @@
 
 use std::{io, iter};
 
-use driveline::configure::Machine as _;
+use driveline::configure::{Configure, Machine as _};
+use driveline::drive::{ConfigOf, Drive};
+use driveline::governor::SpeedLoop;
+use driveline::observer::TwoMassObserver;
 use driveline_closed_loop::lockstep::{Moment, run};
 use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::ticks::{OnHost, Ticks};
 use driveline_closed_loop::units::Units;
-use driveline_firmware::scene::{Input, Output, Scene};
+use driveline_firmware::Words;
+use driveline_firmware::scene::composed::OverWords as _;
+use driveline_firmware::scene::{Input, Output};
 use driveline_firmware::scenes::converter_ring::{ConverterRing, MOTORS};
 use driveline_firmware::scenes::find;
 use driveline_lab::drivetrains::converter_ring::{HEAVY, Pinion, REVERSAL, pinion, with};
@@ -44,48 +49,43 @@ fn unequal(plant: &Body) -> f64 {
     torques.iter().fold(0.0, |unequal, torque| (torque / mean - 1.0).abs().max(unequal))
 }
 
+type PlainDrive = Drive<f32, TwoMassObserver, SpeedLoop>;
+
 /// A drive of one motor that takes the mean of the four angles and gives each motor a fourth of its torque.
-struct EqualTorque<S> {
-    drive: S,
-    torque: u32,
-    share: fn(u32) -> u32,
+struct EqualTorque {
+    drive: PlainDrive,
+    config: ConfigOf<PlainDrive>,
+    torque: f32,
 }
 
-impl<S: Scene> Ticks for EqualTorque<S> {
+impl Ticks for EqualTorque {
     fn tick(&mut self, input: &Input) -> io::Result<Output> {
         if input.flags & Input::MOTORS != 0 {
-            let share = (self.share)(self.torque);
+            let share = (0.25 * self.torque).to_bits();
             let [torque, motor_speed, shaft_torque, load_speed] = [share; MOTORS];
             return Ok(Output { torque, motor_speed, shaft_torque, load_speed, ..Output::default() });
         }
         let further = [input.vibration[0], input.vibration[1], input.asked[1]];
         let apart: i32 = further.map(|angle| angle.wrapping_sub(input.angle) as i32 / MOTORS as i32).iter().sum();
         let angle = input.angle.wrapping_add(apart as u32);
-        let output = self.drive.exchange(&Input { angle, vibration: [0; 2], asked: [0; 2], ..*input });
-        self.torque = output.torque;
+        let output = self.drive.advance(&self.config, &Input { angle, vibration: [0; 2], asked: [0; 2], ..*input });
+        self.torque = f32::from_bits(output.torque);
         Ok(output)
     }
 }
 
 /// A quantity of the plant over a run, and another one.
 fn follow(
-    variant: &str,
+    words: Words,
+    drive: &mut impl Ticks,
     pinions: &[Pinion; MOTORS],
     quantities: [fn(&Body) -> f64; 2],
 ) -> Result<Vec<Moment>, Box<dyn std::error::Error>> {
-    let row = find(variant).ok_or("a variant of the firmware's table")?;
     let mut machine = with(pinions)?;
     [machine.shaft_torque, machine.load_torque] = quantities;
-    let units = Units::new(row.words(), machine.bases);
+    let units = Units::new(words, machine.bases);
     let scenario = machine.scenarios[0].clone();
-    let trace = if variant.starts_with("converter-ring/") {
-        run(&machine, &scenario, &units, row.rate_hz, &mut OnHost(row.start()), |_| {})?
-    } else {
-        let share = |torque| (0.25 * f32::from_bits(torque)).to_bits();
-        let mut plain = EqualTorque { drive: row.start(), torque: 0, share };
-        run(&machine, &scenario, &units, row.rate_hz, &mut plain, |_| {})?
-    };
-    Ok(trace.moments)
+    Ok(run(&machine, &scenario, &units, ConverterRing::RATE_HZ, drive, |_| {})?.moments)
 }
 
 /// What a run with the bias shows.
@@ -106,9 +106,10 @@ fn within(moments: &[Moment], [from, to]: [f64; 2]) -> impl Iterator<Item = &Mom
 }
 
 fn biased(variant: &str, pinions: &[Pinion; MOTORS]) -> Result<Biased, Box<dyn std::error::Error>> {
-    let moments = follow(variant, pinions, [peak, hold])?;
+    let row = find(variant).ok_or("a variant of the firmware's table")?;
+    let moments = follow(row.words(), &mut OnHost(row.start()), pinions, [peak, hold])?;
     assert!(moments.iter().all(|moment| moment.faults == 0), "{variant}");
-    let shares = follow(variant, pinions, [unequal, peak])?;
+    let shares = follow(row.words(), &mut OnHost(row.start()), pinions, [unequal, peak])?;
     Ok(Biased {
         peak: within(&moments, REVERSAL).fold(0.0, |peak, moment| moment.truth[0].max(peak)),
         hold: within(&moments, REVERSAL).fold(f64::INFINITY, |hold, moment| moment.truth[2].min(hold)),
@@ -117,10 +118,11 @@ fn biased(variant: &str, pinions: &[Pinion; MOTORS]) -> Result<Biased, Box<dyn s
     })
 }
 
-/// Peak of the pinions' torques in the reversal (N m), and how often a pinion left a flank in it, by the plain loop of
-/// the scene `converter`.
+/// Peak of the pinions' torques in the reversal (N m), and how often a pinion left a flank in it, by a plain loop.
 fn plain(pinions: &[Pinion; MOTORS]) -> Result<(f64, u32), Box<dyn std::error::Error>> {
-    let moments = follow("converter/f32/plain/10000", pinions, [peak, open])?;
+    let config = <PlainDrive as Configure<ConverterRing, f32>>::CONFIG;
+    let mut drive = EqualTorque { drive: PlainDrive::new(&config, 0), config, torque: 0.0 };
+    let moments = follow(Words::Single, &mut drive, pinions, [peak, open])?;
     let mut left = 0;
     let mut last = 0.0;
     for moment in within(&moments, REVERSAL) {

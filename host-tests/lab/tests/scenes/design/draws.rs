@@ -12,8 +12,8 @@ use driveline::machine::{Chain, Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::{Number, Part};
 use driveline_firmware::scene::FromConfig;
 use driveline_firmware::scenes::{
-    balanced_fan, blooming_mill, converter, crane_travel, flexible, hoist, skip_winch, spindle, strip_mill,
-    surface_grinder, test_rig,
+    balanced_fan, blooming_mill, crane_travel, flexible, hoist, skip_winch, spindle, strip_mill, surface_grinder,
+    test_rig,
 };
 
 /// xorshift64* [Marsaglia 2003, J. Stat. Softw. 8(14)].
@@ -157,8 +157,6 @@ fn a_thousand_machines_within_each_scene_s_tolerances_are_stable_with_6_db_to_sp
         skip_winch Slack skip_winch::SkipOnRope;
         blooming_mill Backlash blooming_mill::BloomingMill;
         blooming_mill Slack blooming_mill::BloomingMill;
-        converter Plain converter::Converter;
-        converter Slack converter::Converter;
         balanced_fan TwoMass balanced_fan::BalancedFan;
         flexible TwoMass flexible::Flexible;
         surface_grinder Tick surface_grinder::SurfaceGrinder;
