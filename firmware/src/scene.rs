@@ -6,7 +6,6 @@
 
 pub mod balanced;
 pub mod composed;
-pub mod expected;
 pub mod no_load;
 pub mod on_axis;
 pub mod panel_keys;
@@ -16,8 +15,6 @@ use core::marker::PhantomData;
 
 use driveline::drive::{Composition, ConfigOf};
 use driveline::telemetry::Channel;
-
-use expected::Expected;
 
 /// Input of a tick: eight words, as on the link.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -139,11 +136,6 @@ pub trait Variant: 'static {
     const CHANNELS: &'static [Channel<'static>] = &[];
     /// The drive at rest.
     fn start() -> Self::Scene;
-
-    /// What the design says of its observer's errors; none where it says nothing.
-    fn expected() -> Option<Expected> {
-        None
-    }
 }
 
 /// A scene that its drive's constants are all that is needed of.

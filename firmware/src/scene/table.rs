@@ -145,12 +145,6 @@ macro_rules! variants {
                 let at_rest: fn() -> Self::Scene = const { $crate::scene::at_rest::<Self> };
                 at_rest()
             }
-
-            #[inline]
-            fn expected() -> Option<$crate::scene::expected::Expected> {
-                <<$drive<$number> as $crate::scene::FromConfig>::Drive as
-                    $crate::scene::expected::Expects<$machine>>::expected()
-            }
         }
 
         impl<Any> $crate::scene::Constants<Any> for $crate::scene::Of<$machine, $drive<$number>> {
@@ -221,7 +215,6 @@ mod host {
     use alloc::boxed::Box;
 
     use super::{Variant, Words};
-    use crate::scene::expected::Expected;
     use crate::scene::{Input, Output, Scene};
 
     /// A variant, to be started by its name.
@@ -232,23 +225,17 @@ mod host {
         /// Ticks a second.
         pub rate_hz: u32,
         start: fn() -> Box<dyn Scene>,
-        expected: fn() -> Option<Expected>,
     }
 
     impl Row {
         /// Of a variant.
         pub const fn of<V: Variant>() -> Self {
-            Row { name: V::NAME, rate_hz: V::RATE_HZ, start: || Box::new(V::start()), expected: V::expected }
+            Row { name: V::NAME, rate_hz: V::RATE_HZ, start: || Box::new(V::start()) }
         }
 
         /// The drive at rest.
         pub fn start(&self) -> Box<dyn Scene> {
             (self.start)()
-        }
-
-        /// What the design says of its observer's errors, as [`Variant::expected`].
-        pub fn expected(&self) -> Option<Expected> {
-            (self.expected)()
         }
 
         /// Whether a drive at rest gives these outputs for these inputs, their instructions aside.
