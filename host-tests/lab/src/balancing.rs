@@ -24,6 +24,7 @@ mod rig;
 mod scene;
 mod scenes;
 mod tables;
+mod trials;
 
 pub use error::BalancingError;
 pub use grinder::{GrinderStart, grinder};

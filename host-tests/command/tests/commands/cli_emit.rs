@@ -8,16 +8,8 @@ use cargo_driveline::machine_file::{MachineFile, read};
 use driveline::machine::Chain;
 
 #[rustfmt::skip]
-#[path = "cli_emit/hoist.rs"]
-mod hoist;
-
-#[rustfmt::skip]
 #[path = "cli_emit/mill.rs"]
 mod mill;
-
-#[rustfmt::skip]
-#[path = "cli_emit/axis.rs"]
-mod axis;
 
 #[rustfmt::skip]
 #[path = "cli_emit/ship.rs"]
@@ -47,31 +39,6 @@ fn same_bits(compiled: &[f64], plan: &[f64]) {
 fn same_chain(compiled: &Chain, machine: &MachineFile) {
     same_bits(compiled.masses(), machine.chain.masses());
     assert_eq!(compiled.shafts(), machine.chain.shafts());
-}
-
-#[test]
-fn the_hoist_compiles_to_the_same_bits() {
-    let (machine, plan) = printed("hoist", include_str!("cli_emit/hoist.rs"));
-    same_chain(&hoist::HOIST, &machine);
-    let (gains, governor) = (plan.states.iter().map(|state| state.gain).collect::<Vec<_>>(), plan.speed_loop.unwrap());
-    same_bits(&hoist::HOIST_OBSERVER.gains, &gains);
-    let compiled = hoist::HOIST_SPEED_LOOP;
-    same_bits(
-        &[compiled.proportional, compiled.integral, compiled.damping],
-        &[governor.proportional, governor.integral, governor.damping],
-    );
-    same_bits(&[hoist::HOIST_TORQUE, hoist::HOIST_SPEED], &[machine.limits.torque, machine.limits.speed]);
-}
-
-#[test]
-fn the_axis_compiles_to_the_same_bits() {
-    let (machine, plan) = printed("axis", include_str!("cli_emit/axis.rs"));
-    same_chain(&axis::FEED_AXIS, &machine);
-    let gains = plan.states.iter().map(|state| state.gain).collect::<Vec<_>>();
-    same_bits(&axis::FEED_AXIS_OBSERVER.gains, &gains);
-    let (compiled, governor) = (axis::FEED_AXIS_SPEED_LOOP, plan.speed_loop.unwrap());
-    same_bits(&[compiled.proportional, compiled.damping], &[governor.proportional, governor.damping]);
-    same_bits(&[axis::FEED_AXIS_TORQUE, axis::FEED_AXIS_SPEED], &[machine.limits.torque, machine.limits.speed]);
 }
 
 #[test]

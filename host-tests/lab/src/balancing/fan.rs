@@ -3,14 +3,14 @@
 use driveline::configure::HasVibration as _;
 use driveline::configure::Machine as _;
 use driveline_firmware::Words;
-use driveline_firmware::scene::panel_keys::{Key, next};
 use driveline_firmware::scenes::balanced_fan::BalancedFan;
 use nalgebra::Complex;
 
 use super::error::BalancingError;
 use super::machine::{Drivetrain, Machine};
 use super::operator::{Hand, Operator};
-use super::outcome::{Claim, Outcome, Stage, Vector};
+use super::outcome::{Claim, Outcome, Stage};
+use super::trials::Trials;
 use driveline_closed_loop::ticks::Ticks;
 use driveline_closed_loop::units::Units;
 use driveline_solver::plant::{Chain, Shaft};
@@ -85,89 +85,22 @@ pub fn run(words: Words, drive: &mut dyn Ticks, seed: u64) -> Result<Outcome, Ba
     let mut chance = driveline_solver::noise::Noise::new(1000 + seed);
     let mut angle = || Polar::degrees(permissible(FOUND), 180.0 * chance.normal());
     let found = [angle(), angle()];
-    let mut hand = Hand::new(0.03, 2.0, 77 + seed);
     let mut operator = Operator::new(machine(words, &model, &found, seed)?, drive);
-    let mut now = found;
-    let mut stages = Vec::new();
-
-    loop {
-        match operator.ask(Key::Next, 0)? {
-            next::BASELINE => {
-                measure(&mut operator)?;
-                operator.press(Key::Baseline, 0)?;
-                stages.push(stage("as found", &mut operator, &model, &now)?);
-            }
-            step @ (next::CORRECTION | next::TRIM) => {
-                // one correction and one trim, whatever the procedure would go on to
-                if stages.len() == 3 {
-                    break;
-                }
-                operator.press(Key::Solve, 0)?;
-                for (plane, u) in now.iter_mut().enumerate() {
-                    *u += hand.set(operator.complex([Key::AddRe, Key::AddIm], plane as u32)?);
-                }
-                set(&mut operator, &now)?;
-                operator.press(Key::Placed, 0)?;
-                measure(&mut operator)?;
-                operator.press(Key::Verified, 0)?;
-                let name = if step == next::TRIM { "trimmed" } else { "corrected" };
-                stages.push(stage(name, &mut operator, &model, &now)?);
-            }
-            trial @ next::TRIAL.. => {
-                let (plane, weight) = (trial - next::TRIAL, Polar::degrees(TRIAL, 45.0));
-                let mut with = now;
-                if let Some(u) = with.get_mut(plane as usize) {
-                    *u += hand.set(weight);
-                }
-                set(&mut operator, &with)?;
-                measure(&mut operator)?;
-                operator.tell_weight(weight)?;
-                operator.press(Key::Trial, plane)?;
-            }
-            _ => break,
-        }
-    }
+    let trials = Trials {
+        model: &model,
+        speeds: &[BalancedFan::RATING.speed.0],
+        settle: SETTLE,
+        weights: [Polar::degrees(TRIAL, 45.0); 2],
+        hand: Hand::new(0.03, 2.0, 77 + seed),
+        stages: 3,
+        measure: &|unbalance| Ok(grade(unbalance)),
+    };
+    let (stages, _) = trials.balance(&mut operator, found)?;
     let claim = |name: &str, stage: usize, limit: f64| {
         let measured = stages.get(stage).map_or(f64::NAN, |stage: &Stage| stage.measure);
         Claim { name: name.to_owned(), measured, limit }
     };
     let claims = vec![claim("grade after one correction, from G 16", 1, 2.5), claim("grade after one trim", 2, 1.0)];
-    Ok(super::scene::outcome("balanced-fan", "grade G, mm/s", rows(), stages, claims, operator))
-}
-
-fn rows() -> Vec<String> {
-    ["motor side", "far side"].map(str::to_owned).to_vec()
-}
-
-/// To speed, and a reading of both channels.
-fn measure(operator: &mut Operator<'_>) -> Result<(), BalancingError> {
-    operator.bring_to(BalancedFan::RATING.speed.0, SETTLE)?;
-    operator.read()?;
-    operator.press(Key::Row, 0)
-}
-
-/// To standstill, and other weights.
-fn set(operator: &mut Operator<'_>, unbalance: &[Complex<f64>]) -> Result<(), BalancingError> {
-    operator.bring_to(0.0, 0.5)?;
-    Ok(operator.machine.whirl().set_unbalance(unbalance)?)
-}
-
-fn stage(
-    name: &str,
-    operator: &mut Operator<'_>,
-    model: &Model,
-    unbalance: &[Complex<f64>],
-) -> Result<Stage, BalancingError> {
-    let mut read = Vec::new();
-    for row in 0..2 {
-        read.push(Vector::of(operator.complex([Key::RowRe, Key::RowIm], row)?));
-    }
-    Ok(Stage {
-        name: name.to_owned(),
-        unbalance: unbalance.iter().map(|&u| Vector::of(u)).collect(),
-        vibration: model.response(BalancedFan::RATING.speed.0, unbalance)?.into_iter().map(Vector::of).collect(),
-        read,
-        measure: grade(unbalance),
-        time: operator.machine.time(),
-    })
+    let rows = ["motor side", "far side"].map(str::to_owned).to_vec();
+    Ok(super::scene::outcome("balanced-fan", "grade G, mm/s", rows, stages, claims, operator))
 }

@@ -3,14 +3,15 @@
 use driveline::configure::HasVibration as _;
 use driveline::configure::Machine as _;
 use driveline_firmware::Words;
-use driveline_firmware::scene::panel_keys::{Key, next};
+use driveline_firmware::scene::panel_keys::Key;
 use driveline_firmware::scenes::flexible::{self as scene, Flexible};
 use nalgebra::Complex;
 
 use super::error::BalancingError;
 use super::machine::{Drivetrain, Machine};
-use super::operator::Operator;
-use super::outcome::{Claim, Outcome, Stage, Vector};
+use super::operator::{Hand, Operator};
+use super::outcome::{Claim, Outcome};
+use super::trials::Trials;
 use driveline_closed_loop::ticks::Ticks;
 use driveline_closed_loop::units::Units;
 use driveline_solver::plant::{Chain, Shaft};
@@ -81,113 +82,38 @@ fn machine(words: Words, model: &Model, found: &[Complex<f64>], seed: u64) -> Re
 /// Balances the rotor with a drive; `seed` is that of everything that is left to chance.
 pub fn run(words: Words, drive: &mut dyn Ticks, seed: u64) -> Result<Outcome, BalancingError> {
     let model = model()?;
-    let [found, trial] = [FOUND, TRIAL].map(|list| list.map(|(size, angle)| Polar::degrees(size, angle)));
+    let [found, weights] = [FOUND, TRIAL].map(|list| list.map(|(size, angle)| Polar::degrees(size, angle)));
     let mut operator = Operator::new(machine(words, &model, &found, seed)?, drive);
-    let mut now = found;
-    let mut stages = Vec::new();
-
     operator.bring_to(scene::SLOW_ROLL, SETTLE)?;
     operator.read()?;
     operator.press(Key::RunOut, 0)?;
-    // one correction, whatever the procedure would go on to
-    while stages.len() < 2 {
-        match operator.ask(Key::Next, 0)? {
-            next::BASELINE => {
-                measure(&mut operator)?;
-                operator.press(Key::Baseline, 0)?;
-                stages.push(stage("as found", &mut operator, &model, &now, &found)?);
-            }
-            next::CORRECTION => {
-                operator.press(Key::Solve, 0)?;
-                for (plane, u) in now.iter_mut().enumerate() {
-                    *u += operator.complex([Key::AddRe, Key::AddIm], plane as u32)?;
-                }
-                set(&mut operator, &now)?;
-                operator.press(Key::Placed, 0)?;
-                measure(&mut operator)?;
-                operator.press(Key::Verified, 0)?;
-                stages.push(stage("corrected", &mut operator, &model, &now, &found)?);
-            }
-            step @ next::TRIAL.. => {
-                let plane = step - next::TRIAL;
-                let mut with = now;
-                let weight = trial.get(plane as usize).copied().unwrap_or_default();
-                if let Some(u) = with.get_mut(plane as usize) {
-                    *u += weight;
-                }
-                set(&mut operator, &with)?;
-                measure(&mut operator)?;
-                operator.tell_weight(weight)?;
-                operator.press(Key::Trial, plane)?;
-            }
-            _ => break,
-        }
-    }
-    let claims = scene::SPEEDS
-        .iter()
-        .map(|&speed| {
-            let rpm = (speed * 30.0 / std::f64::consts::PI).round();
-            Ok(Claim {
-                name: format!("vibration left at {rpm} r/min, as a share"),
-                measured: rms(&model, speed, &now)? / rms(&model, speed, &found)?,
-                limit: 0.05,
-            })
-        })
-        .collect::<Result<Vec<_>, BalancingError>>()?;
+    let left = |speed: f64, unbalance: &[Complex<f64>]| -> Result<f64, BalancingError> {
+        Ok(rms(&model, speed, unbalance)? / rms(&model, speed, &found)?)
+    };
+    let trials = Trials {
+        model: &model,
+        speeds: &scene::SPEEDS,
+        settle: SETTLE,
+        weights,
+        // weights that are set exactly
+        hand: Hand::new(0.0, 0.0, seed),
+        stages: 2,
+        measure: &|unbalance| scene::SPEEDS.iter().try_fold(0.0, |most, &speed| Ok(left(speed, unbalance)?.max(most))),
+    };
+    let (stages, now) = trials.balance(&mut operator, found)?;
+    let claim = |&speed: &f64| {
+        let rpm = (speed * 30.0 / std::f64::consts::PI).round();
+        let name = format!("vibration left at {rpm} r/min, as a share");
+        Ok(Claim { name, measured: left(speed, &now)?, limit: 0.05 })
+    };
+    let claims = scene::SPEEDS.iter().map(claim).collect::<Result<Vec<_>, BalancingError>>()?;
+    let rows = ["1062 r/min, node 1", "1062 r/min, node 11", "1614 r/min, node 1", "1614 r/min, node 11"];
     let measure = "larger share of the vibration that is left";
-    Ok(super::scene::outcome("flexible", measure, rows(), stages, claims, operator))
-}
-
-fn rows() -> Vec<String> {
-    ["1062 r/min, node 1", "1062 r/min, node 11", "1614 r/min, node 1", "1614 r/min, node 11"]
-        .map(str::to_owned)
-        .to_vec()
+    Ok(super::scene::outcome("flexible", measure, rows.map(str::to_owned).to_vec(), stages, claims, operator))
 }
 
 /// Root mean square of the sensors' amplitudes at a speed, by the full solver.
 fn rms(model: &Model, speed: f64, unbalance: &[Complex<f64>]) -> Result<f64, BalancingError> {
     let vibration = model.response(speed, unbalance)?;
     Ok((vibration.iter().map(|x| x.norm_sqr()).sum::<f64>() / vibration.len() as f64).sqrt())
-}
-
-/// A run over both speeds.
-fn measure(operator: &mut Operator<'_>) -> Result<(), BalancingError> {
-    for (index, speed) in scene::SPEEDS.into_iter().enumerate() {
-        operator.bring_to(speed, SETTLE)?;
-        operator.read()?;
-        operator.press(Key::Row, 2 * index as u32)?;
-    }
-    Ok(())
-}
-
-/// To standstill, and other weights.
-fn set(operator: &mut Operator<'_>, unbalance: &[Complex<f64>]) -> Result<(), BalancingError> {
-    operator.bring_to(0.0, 0.5)?;
-    Ok(operator.machine.whirl().set_unbalance(unbalance)?)
-}
-
-fn stage(
-    name: &str,
-    operator: &mut Operator<'_>,
-    model: &Model,
-    unbalance: &[Complex<f64>],
-    found: &[Complex<f64>],
-) -> Result<Stage, BalancingError> {
-    let mut read = Vec::new();
-    for row in 0..4 {
-        read.push(Vector::of(operator.complex([Key::RowRe, Key::RowIm], row)?));
-    }
-    let (mut vibration, mut measure) = (Vec::new(), 0.0_f64);
-    for speed in scene::SPEEDS {
-        vibration.extend(model.response(speed, unbalance)?.into_iter().map(Vector::of));
-        measure = measure.max(rms(model, speed, unbalance)? / rms(model, speed, found)?);
-    }
-    Ok(Stage {
-        name: name.to_owned(),
-        unbalance: unbalance.iter().map(|&u| Vector::of(u)).collect(),
-        vibration,
-        read,
-        measure,
-        time: operator.machine.time(),
-    })
 }
