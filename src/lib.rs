@@ -92,6 +92,8 @@
 //! | base | unit of a fixed-point number | |
 
 #[macro_use]
+mod constants;
+#[macro_use]
 mod sentences;
 
 pub mod adaptive;

@@ -15,12 +15,10 @@ const MOST_ASTRAY: u32 = 3;
 /// Gains of the pulses in angle and speed (2^-16): `2 (2 k - 1)/(k (k + 1))` and `6/(k (k + 1))` for the pulse `k`.
 const GAINS: [[i64; 2]; MEMORY] = {
     let mut gains = [[0; 2]; MEMORY];
-    let mut at = 0;
-    while at < MEMORY {
+    each!(at, 0..MEMORY, {
         let k = at as i64 + 1;
         gains[at] = [2 * (2 * k - 1) * 65_536 / (k * (k + 1)), 6 * 65_536 / (k * (k + 1))];
-        at += 1;
-    }
+    });
     gains
 };
 

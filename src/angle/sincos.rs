@@ -24,33 +24,27 @@ const fn table() -> [f64; PLACES + QUARTER] {
     // the mean of 1 + x^2/2 over the place
     let radius = 1.0 / (1.0 + half * half / 6.0);
     let mut table = [0.0; PLACES + QUARTER];
-    let mut place = 0;
-    while place < PLACES + QUARTER {
+    each!(place, 0..PLACES + QUARTER, {
         let (sine, _) = sin_cos((2 * place) as f64 * half);
         table[place] = radius * sine;
-        place += 1;
-    }
+    });
     table
 }
 
 static SINGLE: [f32; PLACES + QUARTER] = {
     let (exact, mut rounded) = (table(), [0.0; PLACES + QUARTER]);
-    let mut place = 0;
-    while place < PLACES + QUARTER {
+    each!(place, 0..PLACES + QUARTER, {
         rounded[place] = exact[place] as f32;
-        place += 1;
-    }
+    });
     rounded
 };
 
 static FIXED: [i32; PLACES + QUARTER] = {
     let (exact, mut rounded) = (table(), [0; PLACES + QUARTER]);
-    let mut place = 0;
-    while place < PLACES + QUARTER {
+    each!(place, 0..PLACES + QUARTER, {
         let half = if exact[place] < 0.0 { -0.5 } else { 0.5 };
         rounded[place] = (exact[place] * ONE as f64 + half) as i32;
-        place += 1;
-    }
+    });
     rounded
 };
 

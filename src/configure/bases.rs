@@ -150,13 +150,11 @@ impl Rating {
         let settings = SpeedLoopSettings { torque_limit: self.torque_limit.0, ramp: self.speed.0 };
         let (torque, speed) = (2.0 * self.torque_limit.0, 1.34 * self.speed.0);
         let parts = Parts { two_mass, rigid, gear, speed_loop, settings };
-        let mut k = 0;
-        while k < HELD.len() {
+        each!(k, 0..HELD.len(), {
             if let Some(bases) = parts.search(HELD[k], torque, speed) {
                 return bases;
             }
-            k += 1;
-        }
+        });
         parts.bases(torque, speed, false)
     }
 }

@@ -82,17 +82,13 @@ pub trait Family<const A: usize, const B: usize>: Machine {
     /// worse than fixed gains at a light load.
     const OBSERVERS: [[PlacedObserver; B]; A] = {
         let mut observers = [[observer::<Self>(&Self::MEMBERS[0][0], &Self::SCHEDULED_DISTURBANCE); B]; A];
-        let mut i = 0;
-        while i < A {
-            let mut j = 0;
-            while j < B {
+        each!(i, 0..A, {
+            each!(j, 0..B, {
                 if i + j > 0 {
                     observers[i][j] = observer::<Self>(&Self::MEMBERS[i][j], &Self::SCHEDULED_DISTURBANCE);
                 }
-                j += 1;
-            }
-            i += 1;
-        }
+            });
+        });
         observers
     };
     /// Active damping at the points: the gain on the twist rate over the proportional one. A swing decays the faster
@@ -105,10 +101,8 @@ pub trait Family<const A: usize, const B: usize>: Machine {
     const SPEED_LOOPS: [[SpeedLoopDesign; B]; A] = {
         let mut loops = [[Self::SPEED_LOOP; B]; A];
         let bandwidth = Self::SPEED_LOOP.bandwidth;
-        let mut i = 0;
-        while i < A {
-            let mut j = 0;
-            while j < B {
+        each!(i, 0..A, {
+            each!(j, 0..B, {
                 match Self::MEMBERS[i][j].try_limited_speed_loop(Self::RATE, bandwidth, Self::DAMPING[i][j]) {
                     Ok(design) => {
                         let period = Self::TWO_MASS.resonance() / Self::MEMBERS[i][j].resonance();
@@ -119,10 +113,8 @@ pub trait Family<const A: usize, const B: usize>: Machine {
                     }
                     Err(error) => error.stop(),
                 }
-                j += 1;
-            }
-            i += 1;
-        }
+            });
+        });
         loops
     };
 }
@@ -155,17 +147,13 @@ impl<M: HasLoadAndRope<A, B>, const A: usize, const B: usize> Family<A, B> for M
     const DAMPING: [[f64; B]; A] = Self::SWING_DAMPING;
     const MEMBERS: [[TwoMass; B]; A] = {
         let mut members = [[Self::TWO_MASS; B]; A];
-        let mut i = 0;
-        while i < A {
-            let mut j = 0;
-            while j < B {
+        each!(i, 0..A, {
+            each!(j, 0..B, {
                 let (load, rope) = (Mass(Self::LOADS[i]), Length(Self::ROPES[j]));
                 let chain = Self::CHAIN.hoisting(load, rope, Self::ROPE_OF_CHAIN);
                 members[i][j] = chain.reduce(Match::ResonanceAntiresonance);
-                j += 1;
-            }
-            i += 1;
-        }
+            });
+        });
         members
     };
 }
@@ -173,11 +161,9 @@ impl<M: HasLoadAndRope<A, B>, const A: usize, const B: usize> Family<A, B> for M
 /// A number over each value.
 const fn inverse<const K: usize>(values: [f64; K], over: f64) -> [f64; K] {
     let mut inverse = [0.0; K];
-    let mut k = 0;
-    while k < K {
+    each!(k, 0..K, {
         inverse[k] = over / values[k];
-        k += 1;
-    }
+    });
     inverse
 }
 
@@ -189,11 +175,9 @@ const fn falling<const K: usize>(least: f64, most: f64) -> [f64; K] {
     );
     let ratio = exp(ln(least / most) / (K - 1) as f64);
     let mut values = [most; K];
-    let mut k = 1;
-    while k < K {
+    each!(k, 1..K, {
         values[k] = if k == K - 1 { least } else { values[k - 1] * ratio };
-        k += 1;
-    }
+    });
     values
 }
 
@@ -201,10 +185,7 @@ const fn falling<const K: usize>(least: f64, most: f64) -> [f64; K] {
 const fn observer<M: Machine + ?Sized>(member: &TwoMass, disturbance: &Disturbance) -> PlacedObserver {
     let scale = member.load_inertia / M::TWO_MASS.load_inertia;
     let disturbance = Disturbance { load_torque_step: scale * disturbance.load_torque_step, ..*disturbance };
-    match member.try_placed_observer(M::RATE, M::ENCODER, disturbance) {
-        Ok(observer) => observer,
-        Err(error) => error.stop(),
-    }
+    or_stop!(member.try_placed_observer(M::RATE, M::ENCODER, disturbance))
 }
 
 /// A part whose constants follow two parameters of the machine.
@@ -339,15 +320,11 @@ where
     {
         let (observers, governors) = (O::CELLS, G::CELLS);
         let mut cells = [[(O::CONFIG, G::CONFIG); K]; I];
-        let mut i = 0;
-        while i < I {
-            let mut k = 0;
-            while k < K {
+        each!(i, 0..I, {
+            each!(k, 0..K, {
                 cells[i][k] = (observers[i][k], governors[i][k]);
-                k += 1;
-            }
-            i += 1;
-        }
+            });
+        });
         Schedule::new(Axis::new(M::FIRST), Axis::new(M::SECOND), cells)
     }
 }

@@ -241,16 +241,10 @@ const fn fifth(x: f64) -> f64 {
 
 /// Angle of a count of the encoder (rad).
 const fn count(encoder: Encoder) -> f64 {
-    match encoder.resolution() {
-        Ok(count) => count,
-        Err(error) => error.stop(),
-    }
+    or_stop!(encoder.resolution())
 }
 
 /// Time between two ticks (s).
 const fn period(rate: Rate) -> f64 {
-    match rate.period() {
-        Ok(period) => period,
-        Err(error) => error.stop(),
-    }
+    or_stop!(rate.period())
 }

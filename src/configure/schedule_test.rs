@@ -37,10 +37,8 @@ pub struct ScheduleTest {
 #[must_use]
 pub const fn test_schedule<M: Family<A, B>, const A: usize, const B: usize>() -> ScheduleTest {
     let mut test = ScheduleTest { refused: None, semi_implicit: 0.0 };
-    let mut first = 0;
-    while first < A {
-        let mut second = 0;
-        while second < B {
+    each!(first, 0..A, {
+        each!(second, 0..B, {
             let member = &M::MEMBERS[first][second];
             let tolerance = Tolerance {
                 load_inertia: half_way::<M, A, B>(first, second, false),
@@ -57,10 +55,8 @@ pub const fn test_schedule<M: Family<A, B>, const A: usize, const B: usize>() ->
             if !(step <= test.semi_implicit) {
                 test.semi_implicit = step;
             }
-            second += 1;
-        }
-        first += 1;
-    }
+        });
+    });
     test
 }
 

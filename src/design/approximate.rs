@@ -134,8 +134,7 @@ const fn state_error(n: [f64; 4], machine: &TwoMass, period: f64, horizon: u32) 
     let (mut p11, mut p12, mut p21, mut p22) = (1.0, 0.0, 0.0, 1.0);
     let (mut q11, mut q12, mut q21, mut q22) = (1.0, 0.0, 0.0, 1.0);
     let mut largest = 0.0;
-    let mut tick = 0;
-    while tick < horizon {
+    each!(tick, 0..horizon, {
         let (a, b, c, d) = (p11, p21, q11, q21);
         p11 = a * s11 + p12 * s21;
         p12 = a * s12 + p12 * s22;
@@ -150,7 +149,6 @@ const fn state_error(n: [f64; 4], machine: &TwoMass, period: f64, horizon: u32) 
         if square > largest {
             largest = square;
         }
-        tick += 1;
-    }
+    });
     sqrt(largest)
 }

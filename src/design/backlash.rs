@@ -60,23 +60,15 @@ pub struct BacklashDesign {
 }
 
 impl TwoMass {
-    /// Designs the observer of a machine with backlash.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that
-    /// [`try_backlash_observer`](Self::try_backlash_observer) returns.
-    #[must_use]
-    pub const fn backlash_observer(
-        &self,
-        rate: Rate,
-        encoder: Encoder,
-        disturbance: Disturbance,
-        tuning: BacklashTuning,
-    ) -> BacklashDesign {
-        match self.try_backlash_observer(rate, encoder, disturbance, tuning) {
-            Ok(design) => design,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// Designs the observer of a machine with backlash.
+        pub const fn backlash_observer(
+            &self,
+            rate: Rate,
+            encoder: Encoder,
+            disturbance: Disturbance,
+            tuning: BacklashTuning,
+        ) -> BacklashDesign = try_backlash_observer
     }
 
     /// [`backlash_observer`](Self::backlash_observer), with an error instead of a panic.
@@ -90,10 +82,7 @@ impl TwoMass {
         disturbance: Disturbance,
         tuning: BacklashTuning,
     ) -> Result<BacklashDesign, Error> {
-        let contact = match self.try_observer(rate, encoder, disturbance) {
-            Ok(design) => design,
-            Err(error) => return Err(error),
-        };
+        let contact = get!(self.try_observer(rate, encoder, disturbance));
         if self.gap == 0.0 {
             return Err(Error::NoGap);
         }
@@ -117,15 +106,11 @@ impl TwoMass {
                 (Err(error), _, _) | (_, Err(error), _) | (_, _, Err(error)) => return Err(error),
             };
         let mut noise = Matrix::ZERO;
-        let mut i = 0;
-        while i < 5 {
-            let mut j = 0;
-            while j < 5 {
+        each!(i, 0..5, {
+            each!(j, 0..5, {
                 noise.0[i][j] = contact.input[i] * contact.input[j] * torque;
-                j += 1;
-            }
-            i += 1;
-        }
+            });
+        });
         noise.0[2][2] += wandered;
         noise.0[3][3] += load_speed;
         noise.0[4][4] += share * load;

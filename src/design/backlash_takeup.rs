@@ -48,20 +48,12 @@ pub struct BacklashTakeUpDesign {
 }
 
 impl TwoMass {
-    /// Designs backlash take-up.
-    ///
-    /// The approach speed is the impact over `sqrt(k J_m J_l/(J_m + J_l))` [derived; headings: Huang 1987 ch. 3 to 7],
-    /// the damping `2 zeta omega J_m` (derived; the motor's torque alone).
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_take_up`](Self::try_take_up)
-    /// returns.
-    #[must_use]
-    pub const fn take_up(&self, rate: Rate, tuning: BacklashTakeUpTuning) -> BacklashTakeUpDesign {
-        match self.try_take_up(rate, tuning) {
-            Ok(design) => design,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// Designs backlash take-up.
+        ///
+        /// The approach speed is the impact over `sqrt(k J_m J_l/(J_m + J_l))` [derived; headings: Huang 1987 ch. 3 to
+        /// 7], the damping `2 zeta omega J_m` (derived; the motor's torque alone).
+        pub const fn take_up(&self, rate: Rate, tuning: BacklashTakeUpTuning) -> BacklashTakeUpDesign = try_take_up
     }
 
     /// [`take_up`](Self::take_up), with an error instead of a panic.
@@ -69,13 +61,8 @@ impl TwoMass {
     /// # Errors
     /// A machine out of range; [`Error::Unobservable`] without stiffness; [`Error::Slack`].
     pub const fn try_take_up(&self, rate: Rate, tuning: BacklashTakeUpTuning) -> Result<BacklashTakeUpDesign, Error> {
-        if let Err(error) = self.check() {
-            return Err(Error::Machine(error));
-        }
-        let period = match rate.period() {
-            Ok(period) => period,
-            Err(error) => return Err(error),
-        };
+        get!(self.check(), Error::Machine);
+        let period = get!(rate.period());
         if self.stiffness == 0.0 {
             return Err(Error::Unobservable);
         }

@@ -15,20 +15,13 @@ pub struct BarredSpeeds<const K: usize> {
 }
 
 impl<const K: usize> BarredSpeeds<K> {
-    /// The ranges about the critical speeds `frequency/order` [derived; heading: Pfützner 1980 ch. 1], as wide as
-    /// `margin` of them either way, as far as they begin below `up_to` (rad/s). Ranges that touch are one.
-    ///
-    /// `frequencies` (rad/s) of the torsional vibration, `orders` in multiples of a turn (a four-stroke engine has 1/2,
-    /// 1, 3/2 ...).
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    #[must_use]
-    pub const fn new(frequencies: &[f64], orders: &[f64], margin: f64, up_to: f64) -> Self {
-        match Self::try_new(frequencies, orders, margin, up_to) {
-            Ok(ranges) => ranges,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// The ranges about the critical speeds `frequency/order` [derived; heading: Pfützner 1980 ch. 1], as wide as
+        /// `margin` of them either way, as far as they begin below `up_to` (rad/s). Ranges that touch are one.
+        ///
+        /// `frequencies` (rad/s) of the torsional vibration, `orders` in multiples of a turn (a four-stroke engine has
+        /// 1/2, 1, 3/2 ...).
+        pub const fn new(frequencies: &[f64], orders: &[f64], margin: f64, up_to: f64) -> Self = try_new
     }
 
     /// [`new`](Self::new), with an error instead of a panic.
@@ -41,10 +34,8 @@ impl<const K: usize> BarredSpeeds<K> {
             return Err(Error::Barred);
         }
         let mut barred = BarredSpeeds { ranges: [[0.0; 2]; K], count: 0 };
-        let mut f = 0;
-        while f < frequencies.len() {
-            let mut o = 0;
-            while o < orders.len() {
+        each!(f, 0..frequencies.len(), {
+            each!(o, 0..orders.len(), {
                 let (frequency, order) = (frequencies[f], orders[o]);
                 if !(frequency > 0.0 && frequency.is_finite() && order > 0.0 && order.is_finite()) {
                     return Err(Error::Barred);
@@ -54,10 +45,8 @@ impl<const K: usize> BarredSpeeds<K> {
                 if range[0] < up_to && !barred.take(range) {
                     return Err(Error::BarredCount);
                 }
-                o += 1;
-            }
-            f += 1;
-        }
+            });
+        });
         Ok(barred)
     }
 
@@ -76,10 +65,7 @@ impl<const K: usize> BarredSpeeds<K> {
         margin: f64,
         up_to: f64,
     ) -> Self {
-        match Self::try_of_engine(modes, (cylinders, at), orders, least, margin, up_to) {
-            Ok(ranges) => ranges,
-            Err(error) => error.stop(),
-        }
+        or_stop!(Self::try_of_engine(modes, (cylinders, at), orders, least, margin, up_to))
     }
 
     /// [`of_engine`](Self::of_engine), with an error instead of a panic.
@@ -99,12 +85,8 @@ impl<const K: usize> BarredSpeeds<K> {
             return Err(Error::Barred);
         }
         // no range begins below zero: only the errors
-        let mut barred = match Self::try_new(&[1.0], orders, margin, 0.0) {
-            Ok(none) => none,
-            Err(error) => return Err(error),
-        };
-        let mut m = 0;
-        while m < modes.resonances().len() {
+        let mut barred = get!(Self::try_new(&[1.0], orders, margin, 0.0));
+        each!(m, 0..modes.resonances().len(), {
             let mode = &modes.resonances()[m];
             let (mut throws, mut largest, mut j) = ([0.0; N], 0.0, 0);
             while j < N {
@@ -119,8 +101,7 @@ impl<const K: usize> BarredSpeeds<K> {
                 largest = max(largest, mode.shape[j].abs());
                 j += 1;
             }
-            let mut o = 0;
-            while o < orders.len() {
+            each!(o, 0..orders.len(), {
                 if phasor_sum(cylinders, &throws, orders[o]) >= least * largest {
                     match Self::try_new(&[mode.frequency], &[orders[o]], margin, up_to) {
                         Ok(one) if one.count == 0 || barred.take(one.ranges[0]) => {}
@@ -128,10 +109,8 @@ impl<const K: usize> BarredSpeeds<K> {
                         Err(error) => return Err(error),
                     }
                 }
-                o += 1;
-            }
-            m += 1;
-        }
+            });
+        });
         Ok(barred)
     }
 

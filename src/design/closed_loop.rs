@@ -156,15 +156,13 @@ impl ClosedLoop {
         let mut found = Margins::NONE;
         open.sweep(&mut found, 1e-2 * self.slowest, nyquist, 1000);
         // Finer about each resonance, where a lightly damped shaft turns the response quickly.
-        let mut k = 0;
-        while k < plant.count {
+        each!(k, 0..plant.count, {
             let frequency = sqrt(plant.vibration[k].square);
             let (from, to) = (0.9 * frequency, 1.1 * frequency);
             if to < nyquist {
                 open.sweep(&mut found, from, to, 1000);
             }
-            k += 1;
-        }
+        });
         // By the poles: a frequency response may miss a resonance that is sharp enough.
         found.gain_up = edge(&Varied::Gain(&numerator, &denominator), true);
         found.gain_down = edge(&Varied::Gain(&numerator, &denominator), false);
@@ -176,12 +174,10 @@ impl ClosedLoop {
     #[must_use]
     pub const fn ranges(&self, machine: &TwoMass) -> Ranges {
         let mut range = [[1.0; 2]; 3];
-        let mut k = 0;
-        while k < 3 {
+        each!(k, 0..3, {
             let varied = Varied::Machine(self, machine, k);
             range[k] = [edge(&varied, false), edge(&varied, true)];
-            k += 1;
-        }
+        });
         Ranges { motor_inertia: range[0], load_inertia: range[1], stiffness: range[2] }
     }
 }
@@ -267,16 +263,14 @@ const fn edge(varied: &Varied, up: bool) -> f64 {
             return 0.0;
         }
     }
-    let mut halving = 0;
-    while halving < 30 {
+    each!(halving, 0..30, {
         let middle = 0.5 * (good + bad);
         if varied.is_stable(middle) {
             good = middle;
         } else {
             bad = middle;
         }
-        halving += 1;
-    }
+    });
     good
 }
 

@@ -72,33 +72,25 @@ pub const fn discretise<const N: usize, const M: usize, const W: usize>(
 ) -> Option<(Matrix<N, N>, Matrix<N, M>)> {
     const { assert!(W == N + M, "the joined order must be the number of states and inputs") };
     let mut joined = Matrix::<W, W>::ZERO;
-    let mut i = 0;
-    while i < N {
-        let mut j = 0;
-        while j < W {
+    each!(i, 0..N, {
+        each!(j, 0..W, {
             joined.0[i][j] = if j < N { a.0[i][j] } else { b.0[i][j - N] } * period;
-            j += 1;
-        }
-        i += 1;
-    }
+        });
+    });
     let Some(whole) = exponential(&joined) else {
         return None;
     };
     let mut f = Matrix::ZERO;
     let mut g = Matrix::ZERO;
-    let mut i = 0;
-    while i < N {
-        let mut j = 0;
-        while j < W {
+    each!(i, 0..N, {
+        each!(j, 0..W, {
             if j < N {
                 f.0[i][j] = whole.0[i][j];
             } else {
                 g.0[i][j - N] = whole.0[i][j];
             }
-            j += 1;
-        }
-        i += 1;
-    }
+        });
+    });
     Some((f, g))
 }
 
@@ -117,11 +109,9 @@ const fn sum<const N: usize>(
 
 const fn reciprocal<const N: usize>(units: &[f64; N]) -> [f64; N] {
     let mut other = *units;
-    let mut i = 0;
-    while i < N {
+    each!(i, 0..N, {
         other[i] = 1.0 / other[i];
-        i += 1;
-    }
+    });
     other
 }
 
@@ -132,17 +122,14 @@ pub(super) const fn balance<const N: usize>(a: &Matrix<N, N>) -> [f64; N] {
     let mut changed = true;
     while changed && round < 100 {
         changed = false;
-        let mut i = 0;
-        while i < N {
+        each!(i, 0..N, {
             let (mut row, mut column) = (0.0, 0.0);
-            let mut j = 0;
-            while j < N {
+            each!(j, 0..N, {
                 if j != i {
                     row += (a.0[i][j] * units[j] / units[i]).abs();
                     column += (a.0[j][i] * units[i] / units[j]).abs();
                 }
-                j += 1;
-            }
+            });
             if row > 0.0 && column > 0.0 && row.is_finite() && column.is_finite() {
                 let before = row + column;
                 let mut factor = 1.0;
@@ -157,8 +144,7 @@ pub(super) const fn balance<const N: usize>(a: &Matrix<N, N>) -> [f64; N] {
                     changed = true;
                 }
             }
-            i += 1;
-        }
+        });
         round += 1;
     }
     units

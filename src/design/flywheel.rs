@@ -5,8 +5,7 @@
 #[must_use]
 pub const fn energy_swing(areas: &[f64]) -> f64 {
     let (mut sum, mut least, mut most) = (0.0, 0.0, 0.0);
-    let mut k = 0;
-    while k < areas.len() {
+    each!(k, 0..areas.len(), {
         sum += areas[k];
         if sum < least {
             least = sum;
@@ -14,8 +13,7 @@ pub const fn energy_swing(areas: &[f64]) -> f64 {
         if sum > most {
             most = sum;
         }
-        k += 1;
-    }
+    });
     most - least
 }
 

@@ -57,15 +57,9 @@ impl Actuator {
         Ok(0.5 * cycle / cylinders as f64 + 0.25 * turn)
     }
 
-    /// [`try_firing_delay`](Self::try_firing_delay).
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the error's sentence.
-    pub const fn firing_delay(cylinders: u32, four_stroke: bool, speed: f64) -> f64 {
-        match Self::try_firing_delay(cylinders, four_stroke, speed) {
-            Ok(delay) => delay,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// [`try_firing_delay`](Self::try_firing_delay).
+        pub const fn firing_delay(cylinders: u32, four_stroke: bool, speed: f64) -> f64 = try_firing_delay
     }
 }
 
@@ -123,24 +117,16 @@ pub struct GovernorDesign {
 }
 
 impl TwoMass {
-    /// Designs a governor for a slow actuator. `optimum_factor` is a of the symmetrical optimum, above 1; from 2 (fast)
-    /// to 4 (well damped).
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_governor`](Self::try_governor)
-    /// returns.
-    #[must_use]
-    pub const fn governor(
-        &self,
-        rate: Rate,
-        actuator: Actuator,
-        optimum_factor: f64,
-        forward: LoadFeedForward,
-    ) -> GovernorDesign {
-        match self.try_governor(rate, actuator, optimum_factor, forward) {
-            Ok(design) => design,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// Designs a governor for a slow actuator. `optimum_factor` is a of the symmetrical optimum, above 1; from 2
+        /// (fast) to 4 (well damped).
+        pub const fn governor(
+            &self,
+            rate: Rate,
+            actuator: Actuator,
+            optimum_factor: f64,
+            forward: LoadFeedForward,
+        ) -> GovernorDesign = try_governor
     }
 
     /// [`governor`](Self::governor), with an error instead of a panic.
@@ -160,23 +146,15 @@ impl TwoMass {
         self.late_governor(rate, actuator, optimum_factor, [forward.share, 0.0, forward.lag])
     }
 
-    /// [`governor`](Self::governor) with a virtual inertia instead of feed-forward.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that
-    /// [`try_governor_with_inertia`](Self::try_governor_with_inertia) returns.
-    #[must_use]
-    pub const fn governor_with_inertia(
-        &self,
-        rate: Rate,
-        actuator: Actuator,
-        optimum_factor: f64,
-        inertia: VirtualInertia,
-    ) -> GovernorDesign {
-        match self.try_governor_with_inertia(rate, actuator, optimum_factor, inertia) {
-            Ok(design) => design,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// [`governor`](Self::governor) with a virtual inertia instead of feed-forward.
+        pub const fn governor_with_inertia(
+            &self,
+            rate: Rate,
+            actuator: Actuator,
+            optimum_factor: f64,
+            inertia: VirtualInertia,
+        ) -> GovernorDesign = try_governor_with_inertia
     }
 
     /// [`governor_with_inertia`](Self::governor_with_inertia), with an error instead of a panic.
@@ -204,13 +182,8 @@ impl TwoMass {
         optimum_factor: f64,
         taken: [f64; 3],
     ) -> Result<GovernorDesign, Error> {
-        if let Err(error) = self.check() {
-            return Err(Error::Machine(error));
-        }
-        let period = match rate.period() {
-            Ok(period) => period,
-            Err(error) => return Err(error),
-        };
+        get!(self.check(), Error::Machine);
+        let period = get!(rate.period());
         let Actuator { delay, lag } = actuator;
         if !(delay >= 0.0 && delay.is_finite() && lag >= 0.0 && lag.is_finite()) {
             return Err(Error::Actuator);
@@ -246,18 +219,14 @@ impl TwoMass {
 }
 
 impl GovernorDesign {
-    /// The same gains on a machine with natural damping, which [`margins`](Self::margins) then have in the loop.
-    /// Damping adds margin; a load or motor whose torque rises off the operating point (a negative sum) takes some.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that
-    /// [`try_with_natural_damping`](Self::try_with_natural_damping) returns.
-    #[must_use]
-    pub const fn with_natural_damping(self, machine: &TwoMass, natural: NaturalDamping) -> Self {
-        match self.try_with_natural_damping(machine, natural) {
-            Ok(design) => design,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// The same gains on a machine with natural damping, which [`margins`](Self::margins) then have in the loop.
+        /// Damping adds margin; a load or motor whose torque rises off the operating point (a negative sum) takes some.
+        pub const fn with_natural_damping(
+            self,
+            machine: &TwoMass,
+            natural: NaturalDamping,
+        ) -> Self = try_with_natural_damping
     }
 
     /// [`with_natural_damping`](Self::with_natural_damping), with an error instead of a panic.
@@ -265,9 +234,7 @@ impl GovernorDesign {
     /// # Errors
     /// [`Error::NaturalDamping`], [`Error::DampingUnstable`].
     pub const fn try_with_natural_damping(mut self, machine: &TwoMass, natural: NaturalDamping) -> Result<Self, Error> {
-        if let Err(error) = natural.step(machine, self.period) {
-            return Err(error);
-        }
+        get!(natural.step(machine, self.period));
         self.natural = natural;
         if self.open(machine, Averaging::None).is_stable(self.crossover()) {
             Ok(self)

@@ -22,16 +22,9 @@ pub struct InputShaperDesign {
 }
 
 impl InputShaperDesign {
-    /// For a vibration of a natural frequency (rad/s) and damping ratio.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the error's sentence.
-    #[must_use]
-    pub const fn new(frequency: f64, damping: f64) -> Self {
-        match Self::try_new(frequency, damping) {
-            Ok(design) => design,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// For a vibration of a natural frequency (rad/s) and damping ratio.
+        pub const fn new(frequency: f64, damping: f64) -> Self = try_new
     }
 
     /// [`new`](Self::new), with an error instead of a panic.

@@ -32,25 +32,18 @@ impl<const N: usize, const M: usize> Kalman<N, M> {
     /// is no stabilising solution. [`Error::NotStabilising`] where the gain leaves a pole on or outside the unit
     /// circle.
     pub const fn design(f: &Matrix<N, N>, h: &Matrix<M, N>, q: &Matrix<N, N>, r: &Matrix<M, M>) -> Result<Self, Error> {
-        let mut j = 0;
-        while j < M {
+        each!(j, 0..M, {
             if !(r.0[j][j] > 0.0 && r.0[j][j].is_finite()) {
                 return Err(Error::Noise);
             }
-            j += 1;
-        }
+        });
         let mut units = balance(f);
-        let prior = match solve(f, h, q, r, &units) {
-            Ok(prior) => prior,
-            Err(error) => return Err(error),
-        };
-        let mut i = 0;
-        while i < N {
+        let prior = get!(solve(f, h, q, r, &units));
+        each!(i, 0..N, {
             if prior.0[i][i] > 0.0 {
                 units[i] = power_of_two(sqrt(prior.0[i][i]));
             }
-            i += 1;
-        }
+        });
 
         let seen = h.times(&prior);
         let innovation = seen.times(&h.transpose()).plus(1.0, r).symmetric();
@@ -100,10 +93,8 @@ const fn power_of_two(x: f64) -> f64 {
 
 const fn inverse<const N: usize>(units: &[f64; N]) -> [f64; N] {
     let mut other = *units;
-    let mut i = 0;
-    while i < N {
+    each!(i, 0..N, {
         other[i] = 1.0 / other[i];
-        i += 1;
-    }
+    });
     other
 }

@@ -158,24 +158,20 @@ impl LateLoop {
         let mut low = edges[0];
         let first = self.response(low);
         let mut before = (1.0 + first.0, first.1);
-        let mut edge = 1;
-        while edge < edges.len() {
+        each!(edge, 1..edges.len(), {
             let high = if edges[edge] < nyquist { edges[edge] } else { nyquist };
             if high > low {
                 let factor = exp(ln(high / low) / 80.0);
-                let mut point = 0;
-                while point < 80 {
+                each!(point, 0..80, {
                     low = if point == 79 { high } else { low * factor };
                     let response = self.response(low);
                     let after = (1.0 + response.0, response.1);
                     let turn = over(after, before);
                     turned += atan2(turn.1, turn.0);
                     before = after;
-                    point += 1;
-                }
+                });
             }
-            edge += 1;
-        }
+        });
         // Every unstable pole turns it back by half a turn.
         turned > expected * core::f64::consts::PI
     }

@@ -78,8 +78,7 @@ impl OpenLoop {
         let factor = exp(ln(to / from) / points as f64);
         let mut low = from;
         let mut before = self.response(low);
-        let mut point = 0;
-        while point < points {
+        each!(point, 0..points, {
             let high = if point + 1 == points { to } else { low * factor };
             let after = self.response(high);
             let distance = hypot(1.0 + after.0, after.1);
@@ -116,23 +115,20 @@ impl OpenLoop {
             }
             low = high;
             before = after;
-            point += 1;
-        }
+        });
     }
 
     /// Frequency between two at which the imaginary part changes sign, or the gain passes 1.
     const fn bisect(&self, mut low: f64, mut high: f64, imaginary: bool) -> f64 {
         let below = self.is_low(low, imaginary);
-        let mut halving = 0;
-        while halving < 40 {
+        each!(halving, 0..40, {
             let middle = 0.5 * (low + high);
             if self.is_low(middle, imaginary) == below {
                 low = middle;
             } else {
                 high = middle;
             }
-            halving += 1;
-        }
+        });
         0.5 * (low + high)
     }
 

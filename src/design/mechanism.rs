@@ -17,17 +17,14 @@ pub struct MechanismDesign {
 }
 
 impl DrivenMechanism {
-    /// Designs the observer.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_observer`](Self::try_observer)
-    /// returns.
-    #[must_use]
-    pub const fn observer(&self, rate: Rate, encoder: Encoder, disturbance: Disturbance) -> MechanismDesign {
-        match self.try_observer(rate, encoder, disturbance) {
-            Ok(design) => design,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// Designs the observer.
+        pub const fn observer(
+            &self,
+            rate: Rate,
+            encoder: Encoder,
+            disturbance: Disturbance,
+        ) -> MechanismDesign = try_observer
     }
 
     /// [`observer`](Self::observer), with an error instead of a panic.
@@ -41,14 +38,8 @@ impl DrivenMechanism {
         encoder: Encoder,
         disturbance: Disturbance,
     ) -> Result<MechanismDesign, Error> {
-        let mean = match Rigid::try_new(Inertia(self.mean_inertia())) {
-            Ok(mean) => mean,
-            Err(error) => return Err(Error::Machine(error)),
-        };
-        let rigid = match mean.try_observer(rate, encoder, disturbance) {
-            Ok(rigid) => rigid,
-            Err(error) => return Err(error),
-        };
+        let mean = get!(Rigid::try_new(Inertia(self.mean_inertia())), Error::Machine);
+        let rigid = get!(mean.try_observer(rate, encoder, disturbance));
         let [least, most] = self.extremes();
         let spectral_radii = [held_at(&rigid, least), held_at(&rigid, most)];
         if !(spectral_radii[0] < 1.0 && spectral_radii[1] < 1.0) {

@@ -56,13 +56,11 @@ impl NaturalDamping {
         // Changes of sign along 1, `second`, `third/second`, `sum`; one of them is the rigid motion's.
         let signs = [false, second < 0.0, (third < 0.0) != (second < 0.0), self.sum() < 0.0];
         let mut changes = 0;
-        let mut k = 1;
-        while k < signs.len() {
+        each!(k, 1..signs.len(), {
             if signs[k] != signs[k - 1] {
                 changes += 1;
             }
-            k += 1;
-        }
+        });
         if self.sum() < 0.0 { changes - 1 } else { changes }
     }
 
@@ -96,21 +94,17 @@ impl DampedStep {
         // Real and imaginary parts of (z - F) x = G, one above the other.
         let mut whole = Matrix::<6, 6>::ZERO;
         let mut right = Matrix::<6, 1>::ZERO;
-        let mut i = 0;
-        while i < 3 {
-            let mut j = 0;
-            while j < 3 {
+        each!(i, 0..3, {
+            each!(j, 0..3, {
                 let unit = if i == j { 1.0 } else { 0.0 };
                 let real = unit * less_one.0 - (self.f.0[i][j] - unit);
                 whole.0[i][j] = real;
                 whole.0[i + 3][j + 3] = real;
                 whole.0[i][j + 3] = -unit * less_one.1;
                 whole.0[i + 3][j] = unit * less_one.1;
-                j += 1;
-            }
+            });
             right.0[i][0] = self.g.0[i][0];
-            i += 1;
-        }
+        });
         match whole.solve(&right) {
             Some(x) => [(x.0[1][0], x.0[4][0]), (x.0[2][0], x.0[5][0])],
             None => [(f64::INFINITY, 0.0); 2],

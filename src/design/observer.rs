@@ -62,19 +62,16 @@ pub struct TwoMassDesign {
 }
 
 impl TwoMass {
-    /// Designs the observer.
-    ///
-    /// A backlash counts as closed, a weight as part of the load torque.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_observer`](Self::try_observer)
-    /// returns.
-    #[must_use]
-    pub const fn observer(&self, rate: Rate, encoder: Encoder, disturbance: Disturbance) -> TwoMassDesign {
-        match self.try_observer(rate, encoder, disturbance) {
-            Ok(design) => design,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// Designs the observer.
+        ///
+        /// A backlash counts as closed, a weight as part of the load torque.
+        pub const fn observer(
+            &self,
+            rate: Rate,
+            encoder: Encoder,
+            disturbance: Disturbance,
+        ) -> TwoMassDesign = try_observer
     }
 
     /// Whether the sample rate can follow the shaft.
@@ -109,13 +106,8 @@ impl TwoMass {
         encoder: Encoder,
         disturbance: Disturbance,
     ) -> Result<TwoMassDesign, Error> {
-        if let Err(error) = self.check() {
-            return Err(Error::Machine(error));
-        }
-        let variances = match Variances::of(rate, encoder, &disturbance) {
-            Ok(variances) => variances,
-            Err(error) => return Err(error),
-        };
+        get!(self.check(), Error::Machine);
+        let variances = get!(Variances::of(rate, encoder, &disturbance));
         let period = variances.period;
         if self.stiffness == 0.0 {
             return Err(Error::Unobservable);
@@ -127,21 +119,14 @@ impl TwoMass {
         let step = ExactStep::new(self, period);
         let (transition, input) = transition(self, &step, period);
         let mut noise = Matrix::ZERO;
-        let mut i = 0;
-        while i < 5 {
-            let mut j = 0;
-            while j < 5 {
+        each!(i, 0..5, {
+            each!(j, 0..5, {
                 noise.0[i][j] = input[i] * input[j] * variances.torque;
-                j += 1;
-            }
-            i += 1;
-        }
+            });
+        });
         noise.0[4][4] += variances.load_torque;
         let seen = Matrix([[1.0, 0.0, 0.0, 0.0, 0.0]]);
-        let filter = match Kalman::<5, 1>::design(&transition, &seen, &noise, &Matrix([[variances.angle]])) {
-            Ok(filter) => filter,
-            Err(error) => return Err(error),
-        };
+        let filter = get!(Kalman::<5, 1>::design(&transition, &seen, &noise, &Matrix([[variances.angle]])));
 
         let semi_implicit = SemiImplicitStep::new(self, period);
         let p = &filter.posterior;

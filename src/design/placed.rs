@@ -41,11 +41,9 @@ impl PlacedObserver {
     #[must_use]
     pub const fn of(observer: &TwoMassDesign) -> Self {
         let TwoMassDesign { period, machine, step, gains, mut poles, .. } = *observer;
-        let mut k = 0;
-        while k < 5 {
+        each!(k, 0..5, {
             poles[k].0 -= 1.0;
-            k += 1;
-        }
+        });
         PlacedObserver { period, machine, step, gains, poles }
     }
 }
@@ -63,13 +61,8 @@ impl TwoMass {
         encoder: Encoder,
         disturbance: Disturbance,
     ) -> Result<PlacedObserver, Error> {
-        if let Err(error) = self.check() {
-            return Err(Error::Machine(error));
-        }
-        let variances = match Variances::of(rate, encoder, &disturbance) {
-            Ok(variances) => variances,
-            Err(error) => return Err(error),
-        };
+        get!(self.check(), Error::Machine);
+        let variances = get!(Variances::of(rate, encoder, &disturbance));
         if self.stiffness == 0.0 {
             return Err(Error::Unobservable);
         }
@@ -81,11 +74,9 @@ impl TwoMass {
         let motor = variances.torque / variances.angle;
         let load = variances.load_torque / (variances.angle * period * period);
         let (unit, mut poles) = self.filter_poles(motor, load);
-        let mut k = 0;
-        while k < 5 {
+        each!(k, 0..5, {
             poles[k] = sampled(poles[k], period);
-            k += 1;
-        }
+        });
         match self.observer_of_poles(period, unit, poles) {
             Some(observer) => Ok(observer),
             None => Err(Error::NotStabilising),
@@ -124,13 +115,8 @@ impl TwoMass {
             (-0.309_016_994_374_947_4, 0.951_056_516_295_153_5),
             (-0.309_016_994_374_947_4, -0.951_056_516_295_153_5),
         ];
-        if let Err(error) = self.check() {
-            return Err(Error::Machine(error));
-        }
-        let period = match rate.period() {
-            Ok(period) => period,
-            Err(error) => return Err(error),
-        };
+        get!(self.check(), Error::Machine);
+        let period = get!(rate.period());
         if !(bandwidth > 0.0 && bandwidth * period < 0.618_033_988_749_894_8) {
             return Err(Error::ObserverBandwidth);
         }
@@ -141,11 +127,9 @@ impl TwoMass {
             return Err(Error::SampleRate);
         }
         let (mut poles, tick) = (POLES, bandwidth * period);
-        let mut k = 0;
-        while k < 5 {
+        each!(k, 0..5, {
             poles[k] = (poles[k].0 * tick, poles[k].1 * tick);
-            k += 1;
-        }
+        });
         match self.observer_of_poles(period, bandwidth, poles) {
             Some(observer) => Ok(observer),
             None => Err(Error::ObserverBandwidth),
@@ -186,15 +170,13 @@ impl TwoMass {
             [0.0, 0.0, 0.0, 1.0, 0.0],
         ]);
         let mut poles = eigenvalues(&companion);
-        let mut k = 0;
-        while k < 5 {
+        each!(k, 0..5, {
             let (re, im) = poles[k];
             let size = hypot(re, im);
             // The root with a negative real part; next to a negative X, without cancellation.
             let left = if re >= 0.0 { sqrt(0.5 * (size + re)) } else { im.abs() / sqrt(2.0 * (size - re)) };
             poles[k] = (-left * unit, -0.5 * im / left * unit);
-            k += 1;
-        }
+        });
         (unit, poles)
     }
 }
@@ -214,19 +196,15 @@ const ROUNDING: f64 = 1e-3;
 const fn characteristic(matrix: &Matrix<5, 5>) -> [f64; 6] {
     let mut polynomial = [1.0; 6];
     let mut sum = Matrix::<5, 5>::IDENTITY;
-    let mut n = 1;
-    while n < 6 {
+    each!(n, 1..6, {
         let product = matrix.times(&sum);
         let mut trace = 0.0;
-        let mut k = 0;
-        while k < 5 {
+        each!(k, 0..5, {
             trace += product.0[k][k];
-            k += 1;
-        }
+        });
         polynomial[n] = -trace / n as f64;
         sum = product.plus(polynomial[n], &Matrix::IDENTITY);
-        n += 1;
-    }
+    });
     polynomial
 }
 
@@ -244,27 +222,20 @@ const fn placed(
     let per = [1.0, 1.0 / unit, 1.0, 1.0 / unit, 1.0 / torque];
     let (whole, _) = transition(machine, step, period);
     let mut change = whole;
-    let mut k = 0;
-    while k < 5 {
+    each!(k, 0..5, {
         change.0[k][k] -= 1.0;
-        k += 1;
-    }
+    });
     let tick = unit * period;
     let mut rates = change.scaled(&per, &per);
-    let mut i = 0;
-    while i < 5 {
-        let mut j = 0;
-        while j < 5 {
+    each!(i, 0..5, {
+        each!(j, 0..5, {
             rates.0[i][j] /= tick;
-            j += 1;
-        }
-        i += 1;
-    }
+        });
+    });
     // The polynomial of the poles, from its highest coefficient on; conjugates leave it real.
     let mut wanted = [(0.0, 0.0); 6];
     wanted[0] = (1.0, 0.0);
-    let mut k = 0;
-    while k < 5 {
+    each!(k, 0..5, {
         let (re, im) = (poles[k].0 / tick, poles[k].1 / tick);
         let mut n = k + 1;
         while n > 0 {
@@ -273,26 +244,21 @@ const fn placed(
             wanted[n].1 -= a * im + b * re;
             n -= 1;
         }
-        k += 1;
-    }
+    });
     // Ackermann: L = wanted(rates) O^-1 e_5.
     let mut row = Matrix([[1.0, 0.0, 0.0, 0.0, 0.0]]);
     let mut observability = Matrix::<5, 5>::ZERO;
-    let mut k = 0;
-    while k < 5 {
+    each!(k, 0..5, {
         observability.0[k] = row.0[0];
         row = row.times(&rates);
-        k += 1;
-    }
+    });
     let Some(last) = observability.solve(&Matrix([[0.0], [0.0], [0.0], [0.0], [1.0]])) else {
         return None;
     };
     let mut predictor = last;
-    let mut n = 1;
-    while n < 6 {
+    each!(n, 1..6, {
         predictor = rates.times(&predictor).plus(wanted[n].0, &last);
-        n += 1;
-    }
+    });
     // From the predictor's gain to the filter's: F K = L.
     let transition = whole.scaled(&per, &per);
     let Some(gain) = transition.solve(&predictor) else {
@@ -301,27 +267,21 @@ const fn placed(
     // What rounding has left of the polynomial; where the resonance is far beyond the poles, that is little.
     let mut error = rates;
     let placed = transition.times(&gain);
-    let mut k = 0;
-    while k < 5 {
+    each!(k, 0..5, {
         error.0[k][0] -= placed.0[k][0];
-        k += 1;
-    }
+    });
     let found = characteristic(&error);
-    let mut n = 1;
-    while n < 6 {
+    each!(n, 1..6, {
         if !((found[n] - wanted[n].0).abs() <= ROUNDING * wanted[n].0.abs()) {
             return None;
         }
-        n += 1;
-    }
+    });
     let mut gains = [0.0; 5];
-    let mut k = 0;
-    while k < 5 {
+    each!(k, 0..5, {
         gains[k] = gain.0[k][0] * tick * units[k];
         if !gains[k].is_finite() {
             return None;
         }
-        k += 1;
-    }
+    });
     Some(gains)
 }

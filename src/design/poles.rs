@@ -79,8 +79,7 @@ pub const fn eigenvalues<const N: usize>(a: &Matrix<N, N>) -> [Complex; N] {
         tries += 1;
     }
     // A real matrix has real eigenvalues and conjugate pairs: remove rounding residues.
-    let mut i = 0;
-    while i < N {
+    each!(i, 0..N, {
         if values[i].1.abs() <= 1e-14 * size(values[i]) {
             values[i].1 = 0.0;
         }
@@ -90,8 +89,7 @@ pub const fn eigenvalues<const N: usize>(a: &Matrix<N, N>) -> [Complex; N] {
             values.swap(j - 1, j);
             j -= 1;
         }
-        i += 1;
-    }
+    });
     values
 }
 
@@ -104,8 +102,7 @@ const fn after(a: Complex, b: Complex) -> bool {
 #[must_use]
 pub const fn spectral_radius(poles: &[Complex]) -> f64 {
     let mut largest = 0.0;
-    let mut i = 0;
-    while i < poles.len() {
+    each!(i, 0..poles.len(), {
         let size = size(poles[i]);
         if size.is_nan() {
             return size;
@@ -113,8 +110,7 @@ pub const fn spectral_radius(poles: &[Complex]) -> f64 {
         if size > largest {
             largest = size;
         }
-        i += 1;
-    }
+    });
     largest
 }
 
@@ -125,48 +121,36 @@ const fn hessenberg<const N: usize>(a: &Matrix<N, N>) -> [[Complex; N]; N] {
     while column + 2 < N {
         let pivot = column + 1;
         let mut best = pivot;
-        let mut i = pivot + 1;
-        while i < N {
+        each!(i, (pivot + 1)..N, {
             if a.0[i][column].abs() > a.0[best][column].abs() {
                 best = i;
             }
-            i += 1;
-        }
+        });
         a.0.swap(pivot, best);
-        let mut r = 0;
-        while r < N {
+        each!(r, 0..N, {
             a.0[r].swap(pivot, best);
-            r += 1;
-        }
+        });
         let mut i = pivot + 1;
         while i < N && a.0[pivot][column] != 0.0 {
             let factor = a.0[i][column] / a.0[pivot][column];
-            let mut j = 0;
-            while j < N {
+            each!(j, 0..N, {
                 a.0[i][j] -= factor * a.0[pivot][j];
-                j += 1;
-            }
-            let mut r = 0;
-            while r < N {
+            });
+            each!(r, 0..N, {
                 a.0[r][pivot] += factor * a.0[r][i];
-                r += 1;
-            }
+            });
             i += 1;
         }
         column += 1;
     }
     let mut h = [[(0.0, 0.0); N]; N];
-    let mut i = 0;
-    while i < N {
-        let mut j = 0;
-        while j < N {
+    each!(i, 0..N, {
+        each!(j, 0..N, {
             if j + 1 >= i {
                 h[i][j].0 = a.0[i][j];
             }
-            j += 1;
-        }
-        i += 1;
-    }
+        });
+    });
     h
 }
 

@@ -89,16 +89,12 @@ impl Linear {
             LoopObserver::Rigid(design) => {
                 let share = nominal.load_inertia / nominal.total_inertia();
                 let (mut transition, mut input, mut gains) = (Matrix::ZERO, [0.0; 5], [0.0; 5]);
-                let mut i = 0;
-                while i < 3 {
-                    let mut j = 0;
-                    while j < 3 {
+                each!(i, 0..3, {
+                    each!(j, 0..3, {
                         transition.0[i][j] = design.transition.0[i][j];
-                        j += 1;
-                    }
+                    });
                     (input[i], gains[i]) = (design.input[i], design.gains[i]);
-                    i += 1;
-                }
+                });
                 let outputs = [[0.0, 0.0, 1.0 - share, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0, 0.0]];
                 (design.period, transition, input, gains, Matrix(outputs), share)
             }
@@ -123,29 +119,23 @@ impl Linear {
         // (z - A) x = z K, states in units of their gains, real and imaginary part one below the other
         let mut system = Matrix::<10, 10>::ZERO;
         let mut right = Matrix::<10, 1>::ZERO;
-        let mut i = 0;
-        while i < 5 {
-            let mut j = 0;
-            while j < 5 {
+        each!(i, 0..5, {
+            each!(j, 0..5, {
                 let entry = self.transition.0[i][j] * self.unit(j) / self.unit(i);
                 (system.0[i][j], system.0[i + 5][j + 5]) = (-entry, -entry);
-                j += 1;
-            }
+            });
             system.0[i][i] += z.0;
             system.0[i + 5][i + 5] += z.0;
             system.0[i][i + 5] -= z.1;
             system.0[i + 5][i] += z.1;
             let gain = self.gains.0[i][0] / self.unit(i);
             (right.0[i][0], right.0[i + 5][0]) = (z.0 * gain, z.1 * gain);
-            i += 1;
-        }
+        });
         let mut states = [(f64::NAN, f64::NAN); 5];
         if let Some(found) = system.solve(&right) {
-            let mut i = 0;
-            while i < 5 {
+            each!(i, 0..5, {
                 states[i] = (found.0[i][0] * self.unit(i), found.0[i + 5][0] * self.unit(i));
-                i += 1;
-            }
+            });
         }
         states
     }
@@ -154,17 +144,13 @@ impl Linear {
     const fn response(&self, z: Complex) -> [Complex; 3] {
         let states = self.states(z);
         let mut outputs = [(0.0, 0.0); 3];
-        let mut k = 0;
-        while k < 3 {
-            let mut j = 0;
-            while j < 5 {
+        each!(k, 0..3, {
+            each!(j, 0..5, {
                 let factor = self.outputs.0[k][j];
                 outputs[k].0 += factor * states[j].0;
                 outputs[k].1 += factor * states[j].1;
-                j += 1;
-            }
-            k += 1;
-        }
+            });
+        });
         // the accelerating torque of the tick that has ended has the load torque from before it
         let before = over(outputs[2], z);
         outputs[0].0 += self.through * (outputs[2].0 - before.0);
@@ -183,11 +169,9 @@ impl Linear {
         let (sine, cosine) = sin_cos(frequency * self.period);
         let outputs = self.response((cosine, sine));
         let mut squares = [0.0; 3];
-        let mut k = 0;
-        while k < 3 {
+        each!(k, 0..3, {
             squares[k] = 0.5 * amplitude * amplitude * (outputs[k].0 * outputs[k].0 + outputs[k].1 * outputs[k].1);
-            k += 1;
-        }
+        });
         squares
     }
 
@@ -197,19 +181,15 @@ impl Linear {
         sum = sum.plus(torque, &self.input.times(&self.input.transpose()));
         let mut power = self.transition;
         // 2^20 ticks: the slowest observer has settled
-        let mut doubling = 0;
-        while doubling < 20 {
+        each!(doubling, 0..20, {
             sum = sum.plus(1.0, &power.times(&sum).times(&power.transpose()));
             power = power.times(&power);
-            doubling += 1;
-        }
+        });
         let covariance = self.outputs.times(&sum).times(&self.outputs.transpose());
         let mut squares = [0.0; 3];
-        let mut k = 0;
-        while k < 3 {
+        each!(k, 0..3, {
             squares[k] = covariance.0[k][k];
-            k += 1;
-        }
+        });
         let beside = self.outputs.times(&self.input).0[0][0];
         squares[0] += torque * self.through * (self.through + 2.0 * beside);
         squares
@@ -230,12 +210,10 @@ impl Linear {
         let ratio = -machine.motor_inertia / machine.load_inertia;
         let truth = [shaft, (ratio * s.0, ratio * s.1), (0.0, 0.0)];
         let mut squares = [0.0; 3];
-        let mut k = 0;
-        while k < 3 {
+        each!(k, 0..3, {
             let error = over((estimated[k].0 - truth[k].0, estimated[k].1 - truth[k].1), shaft);
             squares[k] = error.0 * error.0 + error.1 * error.1;
-            k += 1;
-        }
+        });
         squares
     }
 }
@@ -283,8 +261,7 @@ impl TwoMass {
         let noise = linear.of_white(white, torque_noise * torque_noise);
 
         let mut swing = [0.0; 3];
-        let mut index = 0;
-        while index < 27 {
+        each!(index, 0..27, {
             let nodes = [NODES[index % 3], NODES[index / 3 % 3], NODES[index / 9]];
             let mut machine = *self;
             machine.motor_inertia *= tolerance.motor_inertia.mean_plus(nodes[0].0);
@@ -293,8 +270,7 @@ impl TwoMass {
             let amplitude = machine.rms_until(cycle.every, machine.amplitude_after(&cycle));
             let weight = nodes[0].1 * nodes[1].1 * nodes[2].1 * amplitude * amplitude;
             swing = sum(swing, weight, linear.of_swing(&machine));
-            index += 1;
-        }
+        });
         PredictedErrors {
             statics,
             encoder: EstimateError::of(periodic),

@@ -56,11 +56,9 @@ pub const fn doubling<const N: usize>(a: &Matrix<N, N>, g: &Matrix<N, N>, h: &Ma
         }
         // Judged against the diagonal, for which every state counts by its own size.
         let mut settled = true;
-        let mut i = 0;
-        while i < N {
+        each!(i, 0..N, {
             settled = settled && grown.0[i][i] <= 1e-17 * h.0[i][i];
-            i += 1;
-        }
+        });
         if settled {
             return Some(Doubling { solution: h, iterations });
         }
@@ -71,16 +69,14 @@ pub const fn doubling<const N: usize>(a: &Matrix<N, N>, g: &Matrix<N, N>, h: &Ma
 /// The powers of two just below the standard deviations of a covariance; 1 where it has none.
 const fn units<const N: usize>(covariance: &Matrix<N, N>) -> [f64; N] {
     let mut units = [1.0; N];
-    let mut i = 0;
-    while i < N {
+    each!(i, 0..N, {
         let variance = covariance.0[i][i];
         if variance > 0.0 {
             // half the exponent, rounded down
             let exponent = (variance.to_bits() as i64 >> 52) - 1023;
             units[i] = f64::from_bits((((exponent >> 1) + 1023) << 52) as u64);
         }
-        i += 1;
-    }
+    });
     units
 }
 

@@ -32,17 +32,14 @@ pub struct RigidDesign {
 }
 
 impl Rigid {
-    /// Designs the observer.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_observer`](Self::try_observer)
-    /// returns.
-    #[must_use]
-    pub const fn observer(&self, rate: Rate, encoder: Encoder, disturbance: Disturbance) -> RigidDesign {
-        match self.try_observer(rate, encoder, disturbance) {
-            Ok(design) => design,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// Designs the observer.
+        pub const fn observer(
+            &self,
+            rate: Rate,
+            encoder: Encoder,
+            disturbance: Disturbance,
+        ) -> RigidDesign = try_observer
     }
 
     /// [`observer`](Self::observer), with an error instead of a panic.
@@ -59,10 +56,7 @@ impl Rigid {
         if !(self.inertia > 0.0 && self.inertia.is_finite()) {
             return Err(Error::Machine(crate::machine::Error::MotorInertia));
         }
-        let variances = match Variances::of(rate, encoder, &disturbance) {
-            Ok(variances) => variances,
-            Err(error) => return Err(error),
-        };
+        let variances = get!(Variances::of(rate, encoder, &disturbance));
         let t = variances.period;
         let (jump, glide) = (t / self.inertia, 0.5 * t * t / self.inertia);
         let transition = Matrix([[1.0, t, -glide], [0.0, 1.0, -jump], [0.0, 0.0, 1.0]]);

@@ -119,10 +119,7 @@ impl TwoMass {
         if !(tolerance.is_sound() && robustness.gain >= 1.0 && robustness.phase >= 0.0) {
             return Err(Error::Tolerance);
         }
-        let [prompt, delayed] = match observer.close_within(speed_loop, actuator, tolerance) {
-            Ok(closed) => closed,
-            Err(error) => return Err(error),
-        };
+        let [prompt, delayed] = get!(observer.close_within(speed_loop, actuator, tolerance));
         let nominal = Plant::of(self);
         if !prompt.is_stable(&nominal, 1.0) {
             return Err(Error::LoopUnstable);
@@ -162,8 +159,7 @@ impl TwoMass {
     /// Whether these loops are stable at all points of the tolerances but the torque's delay, which is the loop's own.
     const fn is_stable_within(&self, tolerance: &Tolerance, loops: &[Mapped], period: f64) -> bool {
         let torque = [tolerance.torque.min, tolerance.torque.max];
-        let mut index = 0;
-        while index < tolerance.machines() {
+        each!(index, 0..tolerance.machines(), {
             let machine = Mapped::of_plant(&Plant::of(&tolerance.machine(self, index)), period);
             let mut rest = loops;
             while let [first, others @ ..] = rest {
@@ -172,8 +168,7 @@ impl TwoMass {
                 }
                 rest = others;
             }
-            index += 1;
-        }
+        });
         true
     }
 
@@ -193,21 +188,16 @@ impl TwoMass {
         if !tolerance.is_sound() {
             return Err(Error::Tolerance);
         }
-        let [prompt, delayed] = match observer.close_within(speed_loop, actuator, tolerance) {
-            Ok(closed) => closed,
-            Err(error) => return Err(error),
-        };
+        let [prompt, delayed] = get!(observer.close_within(speed_loop, actuator, tolerance));
         let mut least = Margins::NONE;
-        let mut index = 0;
-        while index < 4 * tolerance.machines() {
+        each!(index, 0..4 * tolerance.machines(), {
             let closed = if index & 1 == 0 { &prompt } else { &delayed };
             let torque = if index & 2 == 0 { tolerance.torque.min } else { tolerance.torque.max };
             match closed.margins_at(&Plant::of(&tolerance.machine(self, index / 4)), torque) {
                 Ok(found) => least = least.and(&found),
                 Err(error) => return Err(error),
             }
-            index += 1;
-        }
+        });
         Ok(least)
     }
 

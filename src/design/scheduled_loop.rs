@@ -22,9 +22,7 @@ impl TwoMass {
         if !(twist_gain > 0.0 && twist_gain.is_finite()) {
             return Err(Error::TwistGain);
         }
-        if let Err(error) = self.check() {
-            return Err(Error::Machine(error));
-        }
+        get!(self.check(), Error::Machine);
         let share = bandwidth / self.antiresonance();
         let usual = SpeedLoopTuning::USUAL;
         // a bandwidth that is not a number stays one, and is refused

@@ -61,8 +61,7 @@ impl SpeedLoopTuning {
     pub(super) const fn with_twist_gain(self, machine: &TwoMass, ratio: f64) -> Self {
         let mut tuning = self;
         let (mut low, mut high) = (1e-3, 1e3);
-        let mut halving = 0;
-        while halving < 40 {
+        each!(halving, 0..40, {
             tuning.shaft_damping = sqrt(low * high);
             let [proportional, _, damping, _] = machine.speed_loop_gains(&tuning);
             if damping > ratio * proportional {
@@ -70,8 +69,7 @@ impl SpeedLoopTuning {
             } else {
                 low = tuning.shaft_damping;
             }
-            halving += 1;
-        }
+        });
         tuning
     }
 }
@@ -118,20 +116,12 @@ impl SpeedLoopDesign {
 }
 
 impl TwoMass {
-    /// Designs the speed loop.
-    ///
-    /// The gains come from the undamped machine in continuous time; the poles from the damped machine, sampled, the
-    /// torque acting one tick after its sample, with estimates taken as exact: the observer's own lag comes on top.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_speed_loop`](Self::try_speed_loop)
-    /// returns.
-    #[must_use]
-    pub const fn speed_loop(&self, rate: Rate, tuning: SpeedLoopTuning) -> SpeedLoopDesign {
-        match self.try_speed_loop(rate, tuning) {
-            Ok(design) => design,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// Designs the speed loop.
+        ///
+        /// The gains come from the undamped machine in continuous time; the poles from the damped machine, sampled, the
+        /// torque acting one tick after its sample, with estimates taken as exact: the observer's own lag comes on top.
+        pub const fn speed_loop(&self, rate: Rate, tuning: SpeedLoopTuning) -> SpeedLoopDesign = try_speed_loop
     }
 
     /// [`speed_loop`](Self::speed_loop), with an error instead of a panic.
@@ -139,13 +129,8 @@ impl TwoMass {
     /// # Errors
     /// A value out of range, or [`Error::SpeedLoopUnstable`].
     pub const fn try_speed_loop(&self, rate: Rate, tuning: SpeedLoopTuning) -> Result<SpeedLoopDesign, Error> {
-        if let Err(error) = self.check() {
-            return Err(Error::Machine(error));
-        }
-        let period = match rate.period() {
-            Ok(period) => period,
-            Err(error) => return Err(error),
-        };
+        get!(self.check(), Error::Machine);
+        let period = get!(rate.period());
         let b = tuning.bandwidth;
         let placed = b > 0.0 && b < 1.0 || b * self.antiresonance() > self.resonance() && b.is_finite();
         if !(placed && self.stiffness > 0.0) {

@@ -42,11 +42,9 @@ impl LoopObserver<'_> {
         let mut frequency = core::f64::consts::PI / linear.period;
         let mut octave = 0;
         while octave < OCTAVES {
-            let mut step = 0;
-            while step < STEPS {
+            each!(step, 0..STEPS, {
                 let shown = speed_response(&linear, machine, frequency);
-                let mut side = 0;
-                while side < 2 {
+                each!(side, 0..2, {
                     let missing = (1.0 - shown[side].0, -shown[side].1);
                     let share = over(missing, shown[side]);
                     let share = hypot(share.0, share.1) as f32;
@@ -54,21 +52,17 @@ impl LoopObserver<'_> {
                     if !(lag[side][octave] >= share) {
                         lag[side][octave] = if share.is_nan() { f32::INFINITY } else { share };
                     }
-                    side += 1;
-                }
+                });
                 frequency /= STEP;
-                step += 1;
-            }
+            });
             octave += 1;
         }
         // up to a frequency: of the octaves below it too
         while octave > 1 {
             octave -= 1;
-            let mut side = 0;
-            while side < 2 {
+            each!(side, 0..2, {
                 lag[side][octave - 1] = lag[side][octave - 1].max(lag[side][octave]);
-                side += 1;
-            }
+            });
         }
         lag
     }

@@ -77,12 +77,10 @@ const fn series(x: f64, p: f64) -> (f64, f64, f64) {
     let mut missing = 0.0;
     let mut terms = [0.0; 32];
     terms[2] = 0.5;
-    let mut n = 3;
-    while n < 32 {
+    each!(n, 3..32, {
         let m = (n - 2) as f64;
         terms[n] = -(2.0 * x * (m + 1.0) * terms[n - 1] + p * terms[n - 2]) / ((m + 2.0) * (m + 1.0));
-        n += 1;
-    }
+    });
     // Smallest first.
     let mut n = 31;
     while n >= 3 {

@@ -178,10 +178,7 @@ impl Supervision {
         period: f64,
     ) -> Self {
         let (rated, limit) = (rating.torque.0, rating.torque_limit.0);
-        let count = match encoder.resolution() {
-            Ok(count) => count,
-            Err(error) => error.stop(),
-        };
+        let count = or_stop!(encoder.resolution());
         let constant = tolerance.torque.max - 1.0;
         let unknown = constant * limit + (tolerance.offset + 0.05) * rated;
         let within = response.motor * unknown + response.load;

@@ -14,17 +14,10 @@ pub struct TorqueCurve<const K: usize> {
 }
 
 impl<const K: usize> TorqueCurve<K> {
-    /// A curve through points of speed (rad/s), the first of them at zero and each above the last, and torque (N m).
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_through`](Self::try_through)
-    /// returns.
-    #[must_use]
-    pub const fn through(points: [[f64; 2]; K]) -> Self {
-        match Self::try_through(points) {
-            Ok(curve) => curve,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// A curve through points of speed (rad/s), the first of them at zero and each above the last, and torque (N
+        /// m).
+        pub const fn through(points: [[f64; 2]; K]) -> Self = try_through
     }
 
     /// [`through`](Self::through), with an error instead of a panic.
@@ -32,39 +25,30 @@ impl<const K: usize> TorqueCurve<K> {
     /// # Errors
     /// [`Error::TorqueCurve`].
     pub const fn try_through(points: [[f64; 2]; K]) -> Result<Self, Error> {
-        let mut k = 0;
-        while k < K {
+        each!(k, 0..K, {
             let [speed, torque] = points[k];
             let follows = if k == 0 { speed == 0.0 } else { speed > points[k - 1][0] };
             if !(follows && speed.is_finite() && torque >= 0.0 && torque.is_finite()) {
                 return Err(Error::TorqueCurve);
             }
-            k += 1;
-        }
+        });
         if K == 0 { Err(Error::TorqueCurve) } else { Ok(TorqueCurve { points }) }
     }
 
-    /// The largest torque of a prime mover at these speeds (rad/s), the first of them zero. It is zero where the mover
-    /// brakes; below idle it is an engine's at idle, since the engine is not to stall by its limit.
-    ///
-    /// ```
-    /// # use driveline::design::TorqueCurve;
-    /// # use driveline::machine::{Characteristic, Combustion, CombustionType, Speed, Torque};
-    /// const RATED: (Speed, Torque) = (Speed(200.0), Torque(1500.0));
-    /// const ENGINE: Characteristic =
-    ///     Characteristic::Combustion(Combustion::new(CombustionType::Spark, RATED, Speed(70.0), Speed(210.0)));
-    /// const LIMIT: TorqueCurve<5> = TorqueCurve::of(&ENGINE, [0.0, 70.0, 135.0, 200.0, 210.0]);
-    /// assert_eq!(LIMIT.points()[3], [200.0, 1500.0]);
-    /// ```
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_of`](Self::try_of) returns.
-    #[must_use]
-    pub const fn of(mover: &Characteristic, speeds: [f64; K]) -> Self {
-        match Self::try_of(mover, speeds) {
-            Ok(curve) => curve,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// The largest torque of a prime mover at these speeds (rad/s), the first of them zero. It is zero where the
+        /// mover brakes; below idle it is an engine's at idle, since the engine is not to stall by its limit.
+        ///
+        /// ```
+        /// # use driveline::design::TorqueCurve;
+        /// # use driveline::machine::{Characteristic, Combustion, CombustionType, Speed, Torque};
+        /// const RATED: (Speed, Torque) = (Speed(200.0), Torque(1500.0));
+        /// const ENGINE: Characteristic =
+        ///     Characteristic::Combustion(Combustion::new(CombustionType::Spark, RATED, Speed(70.0), Speed(210.0)));
+        /// const LIMIT: TorqueCurve<5> = TorqueCurve::of(&ENGINE, [0.0, 70.0, 135.0, 200.0, 210.0]);
+        /// assert_eq!(LIMIT.points()[3], [200.0, 1500.0]);
+        /// ```
+        pub const fn of(mover: &Characteristic, speeds: [f64; K]) -> Self = try_of
     }
 
     /// [`of`](Self::of), with an error instead of a panic.
@@ -73,30 +57,26 @@ impl<const K: usize> TorqueCurve<K> {
     /// [`Error::TorqueCurve`].
     pub const fn try_of(mover: &Characteristic, speeds: [f64; K]) -> Result<Self, Error> {
         let mut points = [[0.0; 2]; K];
-        let mut k = 0;
-        while k < K {
+        each!(k, 0..K, {
             let speed = match mover {
                 Characteristic::Combustion(engine) if speeds[k] < engine.idle => engine.idle,
                 _ => speeds[k],
             };
             let torque = mover.torque(Speed(speed)).0;
             points[k] = [speeds[k], if torque < 0.0 { 0.0 } else { torque }];
-            k += 1;
-        }
+        });
         Self::try_through(points)
     }
 
     /// The curve with no more than `power` (W) at each of its points.
     #[must_use]
     pub const fn with_power_limit(mut self, power: f64) -> Self {
-        let mut k = 0;
-        while k < K {
+        each!(k, 0..K, {
             let [speed, torque] = self.points[k];
             if speed * torque > power {
                 self.points[k][1] = power / speed;
             }
-            k += 1;
-        }
+        });
         self
     }
 

@@ -196,10 +196,7 @@ pub(super) struct Variances {
 
 impl Variances {
     pub(super) const fn of(rate: Rate, encoder: Encoder, disturbance: &Disturbance) -> Result<Self, Error> {
-        let period = match rate.period() {
-            Ok(period) => period,
-            Err(error) => return Err(error),
-        };
+        let period = get!(rate.period());
         match (encoder.variance(), disturbance.torque_variance(), disturbance.load_torque_variance(period)) {
             (Ok(angle), Ok(torque), Ok(load_torque)) => Ok(Variances { period, angle, torque, load_torque }),
             (Err(error), _, _) | (_, Err(error), _) | (_, _, Err(error)) => Err(error),

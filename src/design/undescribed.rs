@@ -69,16 +69,14 @@ impl ClosedLoop {
             let hold = (cosine * half / turn, -half * half / turn);
             let acts = times(controller.at(delta), hold);
             let (opened, given) = (open.at(delta), rest.at(delta));
-            let mut k = 0;
-            while k < gains.len() {
+            each!(k, 0..gains.len(), {
                 let gain = gains[k];
                 let closed = over(acts, (given.0 + gain * opened.0, given.1 + gain * opened.1));
                 let (re, im) = (gain * closed.0, gain * closed.1);
                 if !is_damped(frequency, (re, im), least, residue, damping) {
                     return false;
                 }
-                k += 1;
-            }
+            });
             let step = frequency * (STEP - 1.0);
             frequency += if step < rate / 32.0 { step } else { rate / 32.0 };
         }

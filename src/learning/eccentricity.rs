@@ -90,16 +90,14 @@ impl EccentricityConfig {
         let [trace, determinant] = self.twist;
         let square = times(z, z);
         let mut value = (square.0 - trace * z.0 + determinant, square.1 - trace * z.1);
-        let mut k = 0;
-        while k < 5 {
+        each!(k, 0..5, {
             if k < 3 {
                 value = times(value, z);
             }
             let (re, im) = (z.0 - self.poles[k].0, z.1 - self.poles[k].1);
             let over = 1.0 / (re * re + im * im);
             value = times(value, (re * over, -im * over));
-            k += 1;
-        }
+        });
         value
     }
 }

@@ -365,11 +365,9 @@ impl Chain {
     #[must_use]
     pub const fn total_inertia(&self) -> f64 {
         let mut sum = 0.0;
-        let mut j = 0;
-        while j < self.count {
+        each!(j, 0..self.count, {
             sum += self.inertia[j];
-            j += 1;
-        }
+        });
         sum
     }
 

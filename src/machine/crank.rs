@@ -154,11 +154,9 @@ impl CrankSlider {
     #[must_use]
     pub const fn mean_inertia(&self) -> Inertia {
         let mut sum = 0.0;
-        let mut j = 0;
-        while j < 256 {
+        each!(j, 0..256, {
             sum += self.inertia(j as f64 * (TAU / 256.0)).inertia;
-            j += 1;
-        }
+        });
         Inertia(sum / 256.0)
     }
 
@@ -179,16 +177,12 @@ impl CrankSlider {
     #[must_use]
     pub const fn force_orders<const N: usize>(&self, speed: f64) -> [f64; N] {
         let mut orders = [0.0; N];
-        let mut j = 0;
-        while j < 256 {
+        each!(j, 0..256, {
             let force = self.mass_force(j as f64 * (TAU / 256.0), speed, 0.0) / 128.0;
-            let mut k = 1;
-            while k < N {
+            each!(k, 1..N, {
                 orders[k] += force * sin_cos(((k * j) % 256) as f64 * (TAU / 256.0)).1;
-                k += 1;
-            }
-            j += 1;
-        }
+            });
+        });
         orders
     }
 }

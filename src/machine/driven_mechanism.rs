@@ -27,17 +27,10 @@ pub struct DrivenMechanism {
 }
 
 impl DrivenMechanism {
-    /// A machine of a motor and a mechanism whose crank turns `turns` times while the motor turns `motor_turns` times;
-    /// negative `turns` where it turns the other way.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    #[must_use]
-    pub const fn new(constant: Inertia, mechanism: &Mechanism, turns: i32, motor_turns: u32) -> Self {
-        match Self::try_new(constant, mechanism, turns, motor_turns) {
-            Ok(machine) => machine,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// A machine of a motor and a mechanism whose crank turns `turns` times while the motor turns `motor_turns`
+        /// times; negative `turns` where it turns the other way.
+        pub const fn new(constant: Inertia, mechanism: &Mechanism, turns: i32, motor_turns: u32) -> Self = try_new
     }
 
     /// [`new`](Self::new), with an error for a value out of range.
@@ -99,8 +92,7 @@ impl DrivenMechanism {
     pub const fn extremes(&self) -> [f64; 2] {
         let first = self.point(0).inertia;
         let [mut least, mut most] = [first, first];
-        let mut j = 1;
-        while j < MECHANISM_POINTS {
+        each!(j, 1..MECHANISM_POINTS, {
             let inertia = self.point(j).inertia;
             // a NaN is neither: it becomes both
             if !(inertia >= least) {
@@ -109,8 +101,7 @@ impl DrivenMechanism {
             if !(inertia <= most) {
                 most = inertia;
             }
-            j += 1;
-        }
+        });
         [least, most]
     }
 

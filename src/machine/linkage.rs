@@ -160,12 +160,10 @@ impl Mechanism {
             Ok(()) => Self::with(None),
             Err(error) => return Self::with(Some(error)),
         };
-        let mut j = 0;
-        while j < MECHANISM_POINTS {
+        each!(j, 0..MECHANISM_POINTS, {
             let (_, rates, centre) = bars.motion(angle_of(j));
             mechanism.points[j] = bars.point(rates, centre);
-            j += 1;
-        }
+        });
         mechanism
     }
 
@@ -182,14 +180,12 @@ impl Mechanism {
         if !not_negative(toggle.slider.0) {
             return Self::with(Some(Error::LinkageMass));
         }
-        let mut j = 0;
-        while j < MECHANISM_POINTS {
+        each!(j, 0..MECHANISM_POINTS, {
             let (rocker, rates, centre) = toggle.bars.motion(angle_of(j));
             let way = toggle.way(rocker, rates[1]);
             let point = toggle.bars.point(rates, centre).moving(toggle.slider.0, way);
             mechanism.points[j] = MechanismPoint { leverage: way[0], ..point };
-            j += 1;
-        }
+        });
         mechanism
     }
 }

@@ -34,24 +34,20 @@ impl MainMode {
     pub(super) const fn of(modes: &Modes, total: f64) -> Self {
         let (all, held) = (modes.resonances(), modes.antiresonances());
         let (mut index, mut largest) = (0, 0.0);
-        let mut i = 0;
-        while i < all.len() {
+        each!(i, 0..all.len(), {
             let compliance = all[i].residue / (all[i].frequency * all[i].frequency);
             if compliance > largest {
                 (index, largest) = (i, compliance);
             }
-            i += 1;
-        }
+        });
         let mut next = 0;
         while next < all.len() && (next == index || all[next].residue * total < UNSEEN) {
             next += 1;
         }
         let mut antiresonance = held[0];
-        let mut i = 0;
-        while i < index {
+        each!(i, 0..index, {
             antiresonance *= held[i + 1] / all[i].frequency;
-            i += 1;
-        }
+        });
         let mut nearest = held[0];
         let mut i = 1;
         while i <= index {

@@ -72,8 +72,7 @@ impl Mechanism {
             Ok(()) => Self::with(None),
             Err(error) => return Self::with(Some(error)),
         };
-        let mut j = 0;
-        while j < MECHANISM_POINTS {
+        each!(j, 0..MECHANISM_POINTS, {
             let angle = angle_of(j);
             let here = crank.inertia(angle);
             mechanism.points[j] = MechanismPoint {
@@ -81,8 +80,7 @@ impl Mechanism {
                 derivative: here.derivative,
                 leverage: crank.travel(angle).first,
             };
-            j += 1;
-        }
+        });
         mechanism
     }
 
@@ -92,13 +90,11 @@ impl Mechanism {
     pub const fn cam<const K: usize>(lift: &[f64; K], follower: Mass) -> Self {
         let Some(way) = interpolated(lift) else { return Self::with(Some(Error::MechanismTable)) };
         let mut mechanism = Self::with(if not_negative(follower.0) { None } else { Some(Error::LinkageMass) });
-        let mut j = 0;
-        while j < MECHANISM_POINTS {
+        each!(j, 0..MECHANISM_POINTS, {
             let [_, first, second] = way[j];
             let point = MechanismPoint { leverage: first, ..mechanism.points[j] };
             mechanism.points[j] = point.moving(follower.0, [first, second]);
-            j += 1;
-        }
+        });
         mechanism
     }
 
@@ -110,12 +106,10 @@ impl Mechanism {
             return Self::with(Some(Error::MechanismTable));
         };
         let mut mechanism = Self::with(None);
-        let mut j = 0;
-        while j < MECHANISM_POINTS {
+        each!(j, 0..MECHANISM_POINTS, {
             let [value, derivative, _] = inertia[j];
             mechanism.points[j] = MechanismPoint { inertia: value, derivative, leverage: way[j][1] };
-            j += 1;
-        }
+        });
         mechanism
     }
 
@@ -125,11 +119,9 @@ impl Mechanism {
         if !not_negative(inertia.0) {
             self.error = Some(Error::RotorInertia);
         }
-        let mut j = 0;
-        while j < MECHANISM_POINTS {
+        each!(j, 0..MECHANISM_POINTS, {
             self.points[j].inertia += inertia.0;
-            j += 1;
-        }
+        });
         self
     }
 
@@ -151,11 +143,9 @@ impl Mechanism {
     #[must_use]
     pub const fn mean_inertia(&self) -> Inertia {
         let mut sum = 0.0;
-        let mut j = 0;
-        while j < MECHANISM_POINTS {
+        each!(j, 0..MECHANISM_POINTS, {
             sum += self.points[j].inertia;
-            j += 1;
-        }
+        });
         Inertia(sum / MECHANISM_POINTS as f64)
     }
 }
@@ -171,42 +161,34 @@ const fn interpolated<const K: usize>(values: &[f64; K]) -> Option<[[f64; 3]; ME
         return None;
     }
     let mut turn = [(0.0, 0.0); K];
-    let mut k = 0;
-    while k < K {
+    each!(k, 0..K, {
         if !values[k].is_finite() {
             return None;
         }
         turn[k] = sin_cos(k as f64 * TAU / K as f64);
-        k += 1;
-    }
+    });
     let mut places = [(0.0, 0.0); MECHANISM_POINTS];
-    let mut j = 0;
-    while j < MECHANISM_POINTS {
+    each!(j, 0..MECHANISM_POINTS, {
         places[j] = sin_cos(angle_of(j));
-        j += 1;
-    }
+    });
     let mut out = [[0.0; 3]; MECHANISM_POINTS];
     let mut order = 0;
     while 2 * order < K {
         let weight = if order == 0 { 1.0 } else { 2.0 } / K as f64;
         let (mut cosine, mut sine) = (0.0, 0.0);
-        let mut k = 0;
-        while k < K {
+        each!(k, 0..K, {
             let (s, c) = turn[k * order % K];
             cosine += weight * values[k] * c;
             sine += weight * values[k] * s;
-            k += 1;
-        }
+        });
         let n = order as f64;
-        let mut j = 0;
-        while j < MECHANISM_POINTS {
+        each!(j, 0..MECHANISM_POINTS, {
             let (s, c) = places[j * order % MECHANISM_POINTS];
             let value = cosine * c + sine * s;
             out[j][0] += value;
             out[j][1] += n * (sine * c - cosine * s);
             out[j][2] -= n * n * value;
-            j += 1;
-        }
+        });
         order += 1;
     }
     Some(out)

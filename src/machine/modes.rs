@@ -52,8 +52,7 @@ impl Modes {
             antiresonance: held.0,
             count,
         };
-        let mut i = 0;
-        while i < count {
+        each!(i, 0..count, {
             let mode = &mut modes.mode[i];
             mode.frequency = free.0[i];
             let mut j = 0;
@@ -62,8 +61,7 @@ impl Modes {
                 j += 1;
             }
             mode.residue = mode.shape[0] * mode.shape[0];
-            i += 1;
-        }
+        });
         modes
     }
 
@@ -92,25 +90,19 @@ impl Chain {
         }
         let shafts = self.count - 1;
         let mut stiffness = [0.0; SHAFTS];
-        let mut j = 0;
-        while j < shafts {
+        each!(j, 0..shafts, {
             stiffness[j] = self.shaft[j].stiffness;
-            j += 1;
-        }
+        });
         let free = scaled_incidence(&self.inertia, &stiffness, shafts, false);
         let held = scaled_incidence(&self.inertia, &stiffness, shafts, true);
         let mut modes = Modes::of(&self.inertia, shafts, free, held);
-        let mut i = 0;
-        while i < shafts {
+        each!(i, 0..shafts, {
             let mode = modes.mode_mut(i);
-            let mut j = 0;
-            while j < shafts {
+            each!(j, 0..shafts, {
                 let twist = mode.shape[j] - mode.shape[j + 1];
                 mode.damping += self.shaft[j].damping * twist * twist;
-                j += 1;
-            }
-            i += 1;
-        }
+            });
+        });
         modes
     }
 }
@@ -125,24 +117,20 @@ pub(super) const fn lowest(inertia: &[f64; CAPACITY], stiffness: &[f64; SHAFTS],
 /// The transpose of `sqrt(k) B / sqrt(J)`, by columns; without the motor's row where it is locked.
 const fn scaled_incidence(inertia: &[f64; CAPACITY], stiffness: &[f64; SHAFTS], shafts: usize, held: bool) -> Columns {
     let mut columns = [[0.0; CAPACITY]; SHAFTS];
-    let mut j = 0;
-    while j < shafts {
+    each!(j, 0..shafts, {
         if !(held && j == 0) {
             columns[j][j] = sqrt(stiffness[j] / inertia[j]);
         }
         columns[j][j + 1] = -sqrt(stiffness[j] / inertia[j + 1]);
-        j += 1;
-    }
+    });
     columns
 }
 
 const fn dot(a: &[f64; CAPACITY], b: &[f64; CAPACITY], rows: usize) -> f64 {
     let mut sum = 0.0;
-    let mut r = 0;
-    while r < rows {
+    each!(r, 0..rows, {
         sum += a[r] * b[r];
-        r += 1;
-    }
+    });
     sum
 }
 
@@ -155,20 +143,17 @@ const fn singular(mut columns: Columns, shafts: usize) -> ([f64; SHAFTS], Column
         turned = false;
         let mut p = 0;
         while p + 1 < shafts {
-            let mut q = p + 1;
-            while q < shafts {
+            each!(q, (p + 1)..shafts, {
                 if rotate(&mut columns, p, q, rows) {
                     turned = true;
                 }
-                q += 1;
-            }
+            });
             p += 1;
         }
         sweep += 1;
     }
     let mut values = [0.0; SHAFTS];
-    let mut i = 0;
-    while i < shafts {
+    each!(i, 0..shafts, {
         values[i] = sqrt(dot(&columns[i], &columns[i], rows));
         // Insert in order.
         let mut j = i;
@@ -177,8 +162,7 @@ const fn singular(mut columns: Columns, shafts: usize) -> ([f64; SHAFTS], Column
             columns.swap(j - 1, j);
             j -= 1;
         }
-        i += 1;
-    }
+    });
     (values, columns)
 }
 
@@ -205,12 +189,10 @@ const fn rotate(columns: &mut Columns, p: usize, q: usize, rows: usize) -> bool 
     };
     let cosine = 1.0 / sqrt(1.0 + tangent * tangent);
     let sine = cosine * tangent;
-    let mut r = 0;
-    while r < rows {
+    each!(r, 0..rows, {
         let (a, b) = (columns[p][r], columns[q][r]);
         columns[p][r] = cosine * a - sine * b;
         columns[q][r] = sine * a + cosine * b;
-        r += 1;
-    }
+    });
     true
 }

@@ -26,16 +26,9 @@ pub enum Match {
 }
 
 impl Chain {
-    /// Two masses for this chain.
-    ///
-    /// # Panics
-    /// At compile time in a constant, where the chain is incomplete, has no shaft or not the shaft of the cut.
-    #[must_use]
-    pub const fn reduce(&self, by: Match) -> TwoMass {
-        match self.try_reduce(by) {
-            Ok(machine) => machine,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// Two masses for this chain.
+        pub const fn reduce(&self, by: Match) -> TwoMass = try_reduce
     }
 
     /// [`reduce`](Self::reduce), with an error instead of a panic.
@@ -44,9 +37,7 @@ impl Chain {
     /// As [`check`](Self::check), [`Error::Rigid`], [`Error::CutOutOfRange`]; [`Error::Reduction`] where an error of
     /// the reduction is not a number.
     pub const fn try_reduce(&self, by: Match) -> Result<TwoMass, Error> {
-        if let Err(error) = self.check() {
-            return Err(error);
-        }
+        get!(self.check());
         if self.count < 2 {
             return Err(Error::Rigid);
         }
@@ -108,15 +99,13 @@ impl Chain {
     const fn lump(&self, machine: &mut TwoMass, cut: usize) {
         machine.motor_inertia = 0.0;
         machine.load_inertia = 0.0;
-        let mut j = 0;
-        while j < self.count {
+        each!(j, 0..self.count, {
             if j <= cut {
                 machine.motor_inertia += self.inertia[j];
             } else {
                 machine.load_inertia += self.inertia[j];
             }
-            j += 1;
-        }
+        });
     }
 
     /// Static compliance at the motor (rad/(N m)): its angle against the mean angle of all masses under a steady
@@ -151,13 +140,11 @@ pub(super) const fn error_of(
     let resonance = machine.resonance() / mode.frequency - 1.0;
     // Same frequency: the two cosines stay together. Otherwise they drift apart to twice the mean.
     let mut left_out = if resonance.abs() < 1e-9 { (mode.residue - residue).abs() } else { mode.residue + residue };
-    let mut i = 0;
-    while i < all.len() {
+    each!(i, 0..all.len(), {
         if i != main.index {
             left_out += all[i].residue;
         }
-        i += 1;
-    }
+    });
     let (next_mode, next_share) = if main.next < all.len() {
         (all[main.next].frequency, all[main.next].residue * total)
     } else {

@@ -14,16 +14,9 @@ pub struct Rigid {
 }
 
 impl Rigid {
-    /// A machine of this inertia, without weight.
-    ///
-    /// # Panics
-    /// At compile time in a constant, where the inertia is not positive and finite.
-    #[must_use]
-    pub const fn new(inertia: Inertia) -> Self {
-        match Self::try_new(inertia) {
-            Ok(machine) => machine,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// A machine of this inertia, without weight.
+        pub const fn new(inertia: Inertia) -> Self = try_new
     }
 
     /// [`new`](Self::new), with an error for a value out of range.
@@ -40,16 +33,9 @@ impl Rigid {
 }
 
 impl Chain {
-    /// The whole chain as one mass.
-    ///
-    /// # Panics
-    /// At compile time in a constant, where the chain ends in a shaft.
-    #[must_use]
-    pub const fn rigid(&self) -> Rigid {
-        match self.try_rigid() {
-            Ok(machine) => machine,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// The whole chain as one mass.
+        pub const fn rigid(&self) -> Rigid = try_rigid
     }
 
     /// [`rigid`](Self::rigid), with an error instead of a panic.

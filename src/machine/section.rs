@@ -94,10 +94,8 @@ impl Section {
         }
         let pieces = 8;
         let mut sum = 0.0;
-        let mut piece = 0;
-        while piece < pieces {
-            let mut point = 0;
-            while point < 8 {
+        each!(piece, 0..pieces, {
+            each!(point, 0..8, {
                 let (at, weight) = GAUSS[point];
                 let mut side = -1.0;
                 while side < 2.0 {
@@ -106,10 +104,8 @@ impl Section {
                     sum += weight / ((d - bore) * (d + bore) * (d * d + bore * bore));
                     side += 2.0;
                 }
-                point += 1;
-            }
-            piece += 1;
-        }
+            });
+        });
         l * sum / (2.0 * pieces as f64)
     }
 
@@ -122,16 +118,9 @@ impl Section {
         stepped(&[*self], modulus)
     }
 
-    /// Moment of inertia about the axis (kg m2).
-    ///
-    /// # Panics
-    /// At compile time in a constant, where a dimension or the density is out of its range.
-    #[must_use]
-    pub const fn inertia(&self, density: Density) -> Inertia {
-        match self.try_inertia(density) {
-            Ok(inertia) => inertia,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// Moment of inertia about the axis (kg m2).
+        pub const fn inertia(&self, density: Density) -> Inertia = try_inertia
     }
 
     /// [`inertia`](Self::inertia), with an error for a value out of range.
@@ -139,9 +128,7 @@ impl Section {
     /// # Errors
     /// As [`check`](Self::check), and [`Error::Density`].
     pub const fn try_inertia(&self, density: Density) -> Result<Inertia, Error> {
-        if let Err(error) = self.check() {
-            return Err(error);
-        }
+        get!(self.check());
         if !positive(density.0) {
             return Err(Error::Density);
         }
@@ -159,10 +146,7 @@ impl Section {
 /// At compile time in a constant, where a dimension or the modulus is out of its range or there is no section.
 #[must_use]
 pub const fn stepped(sections: &[Section], modulus: ShearModulus) -> Stiffness {
-    match try_stepped(sections, modulus) {
-        Ok(stiffness) => stiffness,
-        Err(error) => error.stop(),
-    }
+    or_stop!(try_stepped(sections, modulus))
 }
 
 /// [`stepped`], with an error for a value out of range.
@@ -177,14 +161,10 @@ pub const fn try_stepped(sections: &[Section], modulus: ShearModulus) -> Result<
         return Err(Error::SectionLength);
     }
     let mut sum = 0.0;
-    let mut j = 0;
-    while j < sections.len() {
-        if let Err(error) = sections[j].check() {
-            return Err(error);
-        }
+    each!(j, 0..sections.len(), {
+        get!(sections[j].check());
         sum += sections[j].slenderness();
-        j += 1;
-    }
+    });
     Ok(Stiffness(modulus.0 * PI / (32.0 * sum)))
 }
 

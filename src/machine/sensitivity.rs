@@ -63,12 +63,10 @@ impl Chain {
         let shafts = self.count - 1;
         let nothing = Part { element: Element::Shaft(0), resonance: 0.0, antiresonance: 0.0, compliance: 0.0 };
         let mut table = Sensitivity { part: [nothing; 2 * (CAPACITY - 1)], count: 2 * shafts };
-        let mut j = 0;
-        while j < shafts {
+        each!(j, 0..shafts, {
             table.part[j] = self.without(Element::Shaft(j));
             table.part[shafts + j] = self.without(Element::Mass(j + 1));
-            j += 1;
-        }
+        });
         table
     }
 
@@ -102,11 +100,9 @@ impl Chain {
                 }
             }
         };
-        let mut j = mass;
-        while j < shafts {
+        each!(j, mass..shafts, {
             inertia[j] = inertia[j + 1];
-            j += 1;
-        }
+        });
         let mut j = shaft;
         while j + 1 < shafts {
             stiffness[j] = stiffness[j + 1];

@@ -140,8 +140,7 @@ impl Train {
         self.gravity[1] += branch.gravity[1] / (ratio.0 * efficiency);
         self.gravity[2] += branch.gravity[2] * back / ratio.0;
         let first = self.count;
-        let mut j = 1;
-        while j < branch.count {
+        each!(j, 1..branch.count, {
             let own = branch.shaft[j - 1];
             let shaft = Shaft {
                 stiffness: refer_stiffness(own.stiffness, ratio.0, loss, Side::Load, flow),
@@ -152,8 +151,7 @@ impl Train {
             self.inertia[self.count] = refer_inertia(branch.inertia[j], ratio.0, loss, Side::Load, flow);
             self.joint[self.count - 1] = Joint { from: if j == 1 { at } else { first + j - 2 }, to: self.count, shaft };
             self.count += 1;
-            j += 1;
-        }
+        });
         self
     }
 
@@ -204,11 +202,9 @@ impl Train {
     #[must_use]
     pub const fn total_inertia(&self) -> f64 {
         let mut sum = self.slipping;
-        let mut j = 0;
-        while j < self.count {
+        each!(j, 0..self.count, {
             sum += self.inertia[j];
-            j += 1;
-        }
+        });
         sum
     }
 
@@ -305,11 +301,9 @@ impl Train {
                 mode.damping += shaft.damping * twist * twist;
                 j += 1;
             }
-            let mut j = 0;
-            while j < self.count {
+            each!(j, 0..self.count, {
                 mode.damping += self.drag[j] * mode.shape[j] * mode.shape[j];
-                j += 1;
-            }
+            });
             i += 1;
         }
         modes
@@ -320,10 +314,8 @@ impl Train {
         let edges = self.count - 1;
         let root = self.triangle();
         let mut columns = [[0.0; CAPACITY]; SHAFTS];
-        let mut row = 0;
-        while row < edges {
-            let mut edge = row;
-            while edge < edges {
+        each!(row, 0..edges, {
+            each!(edge, row..edges, {
                 let factor = root[row][edge];
                 if factor != 0.0 {
                     let Joint { from, to, .. } = self.joint[edge];
@@ -332,10 +324,8 @@ impl Train {
                     }
                     columns[row][to] -= factor / sqrt(self.inertia[to]);
                 }
-                edge += 1;
-            }
-            row += 1;
-        }
+            });
+        });
         columns
     }
 
@@ -343,13 +333,10 @@ impl Train {
     const fn triangle(&self) -> [[f64; SHAFTS]; TRAIN_SHAFTS] {
         let edges = self.count - 1;
         let mut root = [[0.0; SHAFTS]; TRAIN_SHAFTS];
-        let mut j = 0;
-        while j < edges {
+        each!(j, 0..edges, {
             root[j][j] = sqrt(self.joint[j].shaft.stiffness);
-            j += 1;
-        }
-        let mut j = edges;
-        while j < edges + self.closing {
+        });
+        each!(j, edges..edges + self.closing, {
             // From either end up to the motor: the common part cancels exactly.
             let Joint { from, to, shaft } = self.joint[j];
             let stiff = sqrt(shaft.stiffness);
@@ -363,8 +350,7 @@ impl Train {
                 root[j][node - 1] -= stiff;
                 node = self.joint[node - 1].from;
             }
-            j += 1;
-        }
+        });
         if self.closing > 0 {
             triangulate(&mut root, edges + self.closing, edges);
         }
@@ -375,44 +361,32 @@ impl Train {
 /// Householder's reflections: rows above the diagonal of the first `columns` columns, nothing below. The first rows have
 /// nothing below their diagonal to begin with.
 const fn triangulate(matrix: &mut [[f64; SHAFTS]; TRAIN_SHAFTS], rows: usize, columns: usize) {
-    let mut c = 0;
-    while c < columns {
+    each!(c, 0..columns, {
         let mut below = 0.0;
-        let mut r = columns;
-        while r < rows {
+        each!(r, columns..rows, {
             below += matrix[r][c] * matrix[r][c];
-            r += 1;
-        }
+        });
         if below > 0.0 {
             let top = matrix[c][c];
             let size = sqrt(top * top + below);
             // Away from the diagonal, so that nothing cancels.
             let lead = if top < 0.0 { top - size } else { top + size };
             let norm = 2.0 / (lead * lead + below);
-            let mut k = c + 1;
-            while k < columns {
+            each!(k, (c + 1)..columns, {
                 let mut product = lead * matrix[c][k];
-                let mut r = columns;
-                while r < rows {
+                each!(r, columns..rows, {
                     product += matrix[r][c] * matrix[r][k];
-                    r += 1;
-                }
+                });
                 product *= norm;
                 matrix[c][k] -= product * lead;
-                let mut r = columns;
-                while r < rows {
+                each!(r, columns..rows, {
                     matrix[r][k] -= product * matrix[r][c];
-                    r += 1;
-                }
-                k += 1;
-            }
+                });
+            });
             matrix[c][c] = if top < 0.0 { size } else { -size };
-            let mut r = columns;
-            while r < rows {
+            each!(r, columns..rows, {
                 matrix[r][c] = 0.0;
-                r += 1;
-            }
+            });
         }
-        c += 1;
-    }
+    });
 }

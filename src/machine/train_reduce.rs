@@ -5,17 +5,9 @@ use super::reduce::{error_of, matched, truncated};
 use super::{Error, Match, ReductionError, Train, TwoMass};
 
 impl Train {
-    /// Two masses for this train, which stand for its main mode: see [`Match`].
-    ///
-    /// # Panics
-    /// At compile time in a constant, where the match is a textbook's cut, which only a chain has, or no mode is
-    /// observable at the motor.
-    #[must_use]
-    pub const fn reduce(&self, by: Match) -> TwoMass {
-        match self.try_reduce(by) {
-            Ok(machine) => machine,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// Two masses for this train, which stand for its main mode: see [`Match`].
+        pub const fn reduce(&self, by: Match) -> TwoMass = try_reduce
     }
 
     /// [`reduce`](Self::reduce), with an error instead of a panic.
@@ -52,12 +44,10 @@ impl Train {
             Match::TextbookCut(_) | Match::TextbookShaft(_) => return Err(Error::TrainCut),
         }
         let mut compliance = 0.0;
-        let mut i = 0;
-        while i < modes.resonances().len() {
+        each!(i, 0..modes.resonances().len(), {
             let mode = &modes.resonances()[i];
             compliance += mode.residue / (mode.frequency * mode.frequency);
-            i += 1;
-        }
+        });
         machine.error = ReductionError {
             slipping: self.slipping / total,
             ..error_of(&machine, &modes, &main, self.inertia[0], compliance)

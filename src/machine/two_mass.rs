@@ -28,16 +28,9 @@ pub struct TwoMass {
 }
 
 impl TwoMass {
-    /// Two masses, without backlash or weight. The stiffness may be zero: two masses apart.
-    ///
-    /// # Panics
-    /// At compile time in a constant, where a value is out of range; [`try_new`](Self::try_new) returns it.
-    #[must_use]
-    pub const fn new(motor: Inertia, load: Inertia, stiffness: Stiffness, damping: Damping) -> Self {
-        match Self::try_new(motor, load, stiffness, damping) {
-            Ok(machine) => machine,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// Two masses, without backlash or weight. The stiffness may be zero: two masses apart.
+        pub const fn new(motor: Inertia, load: Inertia, stiffness: Stiffness, damping: Damping) -> Self = try_new
     }
 
     /// [`new`](Self::new), with an error for a value out of range.

@@ -30,14 +30,12 @@ impl<const K: usize> Axis<K> {
     /// For fewer than two points, and for points that do not rise or are not finite.
     pub const fn try_new(points: [f64; K]) -> Result<Self, &'static str> {
         let mut single = [0.0; K];
-        let mut k = 0;
-        while k < K {
+        each!(k, 0..K, {
             single[k] = points[k] as f32;
             if !single[k].is_finite() || (k > 0 && !(single[k] > single[k - 1])) {
                 return Err(RISING);
             }
-            k += 1;
-        }
+        });
         if K < 2 { Err(RISING) } else { Ok(Axis { points: single }) }
     }
 

@@ -52,13 +52,9 @@ impl<const K: usize> ShaperSlots<K> {
         slots: u32,
         period: f64,
     ) -> Result<Self, &'static str> {
-        let axis = match Axis::try_new(ropes) {
-            Ok(axis) => axis,
-            Err(sentence) => return Err(sentence),
-        };
+        let axis = get!(Axis::try_new(ropes));
         let mut found = [0; K];
-        let mut k = 0;
-        while k < K {
+        each!(k, 0..K, {
             let design = match design.try_at_rope(rope, Length(ropes[k])) {
                 Ok(design) => design,
                 Err(error) => return Err(error.message()),
@@ -69,8 +65,7 @@ impl<const K: usize> ShaperSlots<K> {
                     return Err("the slots of an input shaper must be nearly whole ticks at every length of the rope");
                 }
             };
-            k += 1;
-        }
+        });
         Ok(Self { ropes: axis, slots: found })
     }
 

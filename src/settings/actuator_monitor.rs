@@ -1,7 +1,6 @@
 //! Constants of the watch on an actuator.
 
 use super::constants::constants;
-use super::convert::get;
 use super::governor_parts::{all_finite, ticks};
 use super::to::Values;
 use super::{Error, Format};
@@ -60,14 +59,12 @@ constants! {
         let ([tolerance, max_torque], [none]) = get!(To::part(torques(settings, &format), WATCH));
         let timeout = get!(ticks(settings.timeout, period));
         let mut share = [none; K];
-        let mut k = 0;
-        while k < K {
+        each!(k, 0..K, {
             share[k] = match To::coefficient(get!(covered(lags[k], period)), LAG) {
                 Ok(share) => share,
                 Err(_) => return Err(Error::Value(LAG)),
             };
-            k += 1;
-        }
+        });
         Ok(ActuatorMonitorConfig { share, tolerance, max_torque, timeout })
     }
 }

@@ -1,7 +1,7 @@
 //! Constants of the observer of backlash.
 
 use super::constants::constants;
-use super::convert::{get, positive};
+use super::convert::positive;
 use super::format::ANGLE_PER_RADIAN;
 use super::{Bases, Error, Format};
 use crate::design::BacklashDesign;

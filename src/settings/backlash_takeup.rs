@@ -1,7 +1,7 @@
 //! Constants of backlash take-up.
 
 use super::constants::constants;
-use super::convert::{get, positive};
+use super::convert::positive;
 use super::{Bases, Error, Format};
 use crate::design::BacklashTakeUpDesign;
 use crate::governor::BacklashTakeUpConfig;

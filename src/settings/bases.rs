@@ -60,13 +60,11 @@ impl Bases {
     /// Checks that each base is positive and finite.
     pub(super) const fn check(&self) -> Result<(), Error> {
         let bases = [self.torque, self.speed, self.twist, self.twist_rate, self.forcing];
-        let mut k = 0;
-        while k < 5 {
+        each!(k, 0..5, {
             if !(bases[k] > 0.0 && bases[k].is_finite()) {
                 return Err(Error::Value(BASE));
             }
-            k += 1;
-        }
+        });
         Ok(())
     }
 

@@ -6,14 +6,12 @@ use crate::number::{Coefficient, Fixed};
 /// Coefficients in fixed point; the error names their parameter.
 pub(super) const fn fixed<const K: usize>(values: [f64; K], sentence: &'static str) -> Result<[Coefficient; K], Error> {
     let mut out = [Coefficient::ZERO; K];
-    let mut k = 0;
-    while k < K {
+    each!(k, 0..K, {
         match Coefficient::from_f64(values[k]) {
             Some(coefficient) => out[k] = coefficient,
             None => return Err(Error::Coefficient(sentence)),
         }
-        k += 1;
-    }
+    });
     Ok(out)
 }
 
@@ -31,25 +29,3 @@ pub(super) const fn positive(value: f64, sentence: &'static str) -> Result<f64, 
         Err(Error::Value(sentence))
     }
 }
-
-/// Unwraps a result in a `const fn` that returns one.
-macro_rules! get {
-    ($result:expr) => {
-        match $result {
-            Ok(value) => value,
-            Err(error) => return Err(error),
-        }
-    };
-}
-
-/// Unwraps a result in a `const fn` that stops the compilation with the error's sentence.
-macro_rules! or_stop {
-    ($result:expr) => {
-        match $result {
-            Ok(value) => value,
-            Err(error) => error.stop(),
-        }
-    };
-}
-
-pub(super) use {get, or_stop};

@@ -1,11 +1,10 @@
 //! Constants of the measurement of the speed's fluctuation.
 
-use super::convert::{fixed, get, or_stop};
-use super::{Bases, Error, Format};
+use super::constants::constants;
+use super::{Bases, Error};
 use crate::design::{LoopObserver, RigidDesign, TwoMassDesign};
 use crate::fluctuation::{CycleConfig, CycleMeanConfig, Drivetrain, PLACES, SpeedErrors, WaveformConfig};
 use crate::machine::TwoMass;
-use crate::number::Fixed;
 
 const RATIO: &str = "the cycle's turns and cycles must be at least 1, and at most 65,535";
 const LONG: &str = "the cycle must be at most 16 turns of the motor";
@@ -63,12 +62,9 @@ impl Drivetrain {
 }
 
 impl CycleConfig {
-    /// The constants of a cycle in ticks of `period` (s), for numbers of these bases: [`Bases::SI`] for floats.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    pub const fn new(cycle: Cycle, period: f64, bases: Bases) -> Self {
-        or_stop!(Self::try_new(cycle, period, bases))
+    stops! {
+        /// The constants of a cycle in ticks of `period` (s), for numbers of these bases: [`Bases::SI`] for floats.
+        pub const fn new(cycle: Cycle, period: f64, bases: Bases) -> Self = try_new
     }
 
     /// The constants of a cycle in ticks of `period` (s), for numbers of these bases: [`Bases::SI`] for floats.
@@ -127,71 +123,26 @@ const fn mean_cycle(cycle: Cycle, segments: usize, period: f64, bases: Bases) ->
     Ok((CycleConfig::in_segments(cycle, segments as u32, period, bases), whole as u32))
 }
 
-macro_rules! float_mean {
-    ($float:ident) => {
-        impl CycleMeanConfig<$float> {
-            /// The constants of the speed without its ripple, renewed `SEGMENTS` times a cycle, in ticks of `period`
-            /// (s), as floats.
-            ///
-            /// # Panics
-            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
-            /// returns.
-            pub const fn new<const SEGMENTS: usize>(cycle: Cycle, period: f64, bases: Bases) -> Self {
-                or_stop!(Self::try_new::<SEGMENTS>(cycle, period, bases))
-            }
-
-            /// [`new`](Self::new), with an error instead of a panic.
-            ///
-            /// # Errors
-            /// As [`CycleConfig::try_new`], and [`Error::Value`] for segments that are no power of two, or too few or
-            /// too many for the cycle.
-            pub const fn try_new<const SEGMENTS: usize>(cycle: Cycle, period: f64, _: Bases) -> Result<Self, Error> {
-                let (cycle, angle) = get!(mean_cycle(cycle, SEGMENTS, period, Bases::SI));
-                let speed = Format::FLOAT.speed_of_turn(period) as $float;
-                if speed.is_finite() { Ok(CycleMeanConfig { cycle, angle, speed }) } else { Err(Error::Value(PERIOD)) }
-            }
-        }
-    };
-}
-
-float_mean!(f32);
-float_mean!(f64);
-
-impl CycleMeanConfig<Fixed> {
-    /// The constants of the speed without its ripple, renewed `SEGMENTS` times a cycle, in ticks of `period` (s), in
-    /// fixed point.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    pub const fn new<const SEGMENTS: usize>(cycle: Cycle, period: f64, bases: Bases) -> Self {
-        or_stop!(Self::try_new::<SEGMENTS>(cycle, period, bases))
-    }
-
-    /// [`new`](Self::new), with an error instead of a panic.
-    ///
-    /// # Errors
-    /// As [`CycleConfig::try_new`]. [`Error::Value`] for segments that are no power of two, or too few or too many for
-    /// the cycle. [`Error::Coefficient`] for a motor that turns by less than a count of 2^-32 turns in a tick at its
+constants! {
+    /// As [`CycleConfig::try_new`], of the speed without its ripple, renewed `SEGMENTS` times a cycle in ticks of
+    /// `period` (s). [`Error::Value`] for segments that are no power of two, or too few or too many for the cycle;
+    /// [`Error::Coefficient`] in fixed point for a motor that turns by less than a count of 2^-32 turns in a tick at its
     /// base.
-    pub const fn try_new<const SEGMENTS: usize>(cycle: Cycle, period: f64, bases: Bases) -> Result<Self, Error> {
-        let (cycle, angle) = get!(mean_cycle(cycle, SEGMENTS, period, bases));
-        let speed = Format::fixed(bases).speed_of_turn(period);
+    impl[] CycleMeanConfig[], new, try_new<const SEGMENTS: usize>(cycle: Cycle, period: f64), |format| {
+        let (cycle, angle) = get!(mean_cycle(cycle, SEGMENTS, period, format.bases));
+        let speed = format.speed_of_turn(period);
         // The format ends there, and the speed would come out too low.
-        if speed > 0.4989 {
+        if format.unit != 1.0 && speed > 0.4989 {
             return Err(Error::Coefficient(SLOW));
         }
-        let [speed] = get!(fixed([speed], SLOW));
-        Ok(CycleMeanConfig { cycle, angle, speed })
+        Ok(CycleMeanConfig { cycle, angle, speed: get!(To::coefficient(speed, SLOW)) })
     }
 }
 
 impl WaveformConfig {
-    /// The constants of a waveform of `BINS` bins over `cycles` cycles.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    pub const fn new<const BINS: usize>(cycle: CycleConfig, cycles: u32) -> Self {
-        or_stop!(Self::try_new::<BINS>(cycle, cycles))
+    stops! {
+        /// The constants of a waveform of `BINS` bins over `cycles` cycles.
+        pub const fn new<const BINS: usize>(cycle: CycleConfig, cycles: u32) -> Self = try_new
     }
 
     /// The constants of a waveform of `BINS` bins over `cycles` cycles.
@@ -220,6 +171,7 @@ impl WaveformConfig {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::Fixed;
 
     /// Segments are a power of two, 4 to 1024, each of eight units of 2^-26 turn or more.
     #[test]

@@ -1,9 +1,9 @@
 //! Constants of a gear's loss.
 
-use super::convert::{fixed, get, or_stop};
+use super::constants::constants;
 use super::format::ANGLE_PER_RADIAN;
 use super::{Bases, Error};
-use crate::number::{Fixed, INNOVATION_RANGE, STICTION_GAIN};
+use crate::number::{INNOVATION_RANGE, STICTION_GAIN};
 use crate::observer::{GearFriction, GearedConfig, LoadGearConfig};
 
 const EFFICIENCY: &str = "the efficiency of the gear must be above 0 and at most 1";
@@ -96,118 +96,34 @@ impl LoadGear {
     }
 }
 
-macro_rules! float {
-    ($float:ident) => {
-        impl<C: Copy> GearedConfig<$float, C> {
-            /// An observer's constants behind a gear, in ticks of this period (s).
-            ///
-            /// # Panics
-            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
-            /// returns.
-            pub const fn new(observer: C, gear: &Gear, period: f64, bases: Bases) -> Self {
-                or_stop!(Self::try_new(observer, gear, period, bases))
-            }
-
-            /// An observer's constants behind a gear, in ticks of this period (s).
-            ///
-            /// # Errors
-            /// [`Error::Value`] for a figure of the gear that is out of its range.
-            pub const fn try_new(observer: C, gear: &Gear, period: f64, _: Bases) -> Result<Self, Error> {
-                let ([share, excess], stiction_gain, deadband) = get!(gear.losses(period));
-                Ok(GearedConfig {
-                    observer,
-                    friction: GearFriction { share: share as $float, excess: excess as $float },
-                    stiction_gain: stiction_gain as $float,
-                    deadband: deadband as $float,
-                })
-            }
-        }
-
-        impl<C: Copy> LoadGearConfig<$float, C> {
-            /// An observer's constants in front of a gear, in ticks of this period (s).
-            ///
-            /// # Panics
-            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
-            /// returns.
-            pub const fn new(observer: C, gear: &LoadGear, period: f64, bases: Bases) -> Self {
-                or_stop!(Self::try_new(observer, gear, period, bases))
-            }
-
-            /// An observer's constants in front of a gear, in ticks of this period (s).
-            ///
-            /// # Errors
-            /// [`Error::Value`] for a figure of the gear that is out of its range.
-            pub const fn try_new(observer: C, gear: &LoadGear, period: f64, _: Bases) -> Result<Self, Error> {
-                let [driving, driven, stiction_gain] = get!(gear.losses(period));
-                Ok(LoadGearConfig {
-                    observer,
-                    driving: driving as $float,
-                    driven: driven as $float,
-                    stiction_gain: stiction_gain as $float,
-                })
-            }
-        }
-    };
-}
-
-float!(f32);
-float!(f64);
-
-impl<C: Copy> GearedConfig<Fixed, C> {
-    /// An observer's constants behind a gear, in ticks of this period (s).
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    pub const fn new(observer: C, gear: &Gear, period: f64, bases: Bases) -> Self {
-        or_stop!(Self::try_new(observer, gear, period, bases))
-    }
-
-    /// An observer's constants behind a gear, in ticks of this period (s).
-    ///
-    /// # Errors
-    /// [`Error::Value`] for a figure of the gear that is out of its range, or an inertia too light for the bases;
-    /// [`Error::Coefficient`] for an efficiency below 0.58.
-    pub const fn try_new(observer: C, gear: &Gear, period: f64, bases: Bases) -> Result<Self, Error> {
-        get!(bases.check());
-        let (friction, _, deadband) = get!(gear.losses(period));
-        let [share, excess] = get!(fixed(friction, FIXED));
-        if !gear.holds(period, bases) {
+constants! {
+    /// [`Error::Value`] for a figure of the gear that is out of its range, or in fixed point an inertia too light for
+    /// the bases; [`Error::Coefficient`] for an efficiency below 0.58 in fixed point.
+    impl[C: Copy] GearedConfig[, C], new, try_new(observer: C, gear: &Gear, period: f64), |format| {
+        let (friction, stiction_gain, deadband) = get!(gear.losses(period));
+        let [share, excess] = get!(To::coefficients(friction, FIXED));
+        if format.unit != 1.0 && !gear.holds(period, format.bases) {
             return Err(Error::Value(LIGHT));
         }
-        Ok(GearedConfig {
-            observer,
-            friction: GearFriction { share, excess },
-            stiction_gain: (),
-            deadband: Fixed::from_bits(deadband as i32),
-        })
+        let (friction, stiction_gain) = (GearFriction { share, excess }, To::stiction(stiction_gain));
+        Ok(GearedConfig { observer, friction, stiction_gain, deadband: get!(To::angle(deadband, PLAY)) })
     }
 }
 
-impl<C: Copy> LoadGearConfig<Fixed, C> {
-    /// An observer's constants in front of a gear, in ticks of this period (s).
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    pub const fn new(observer: C, gear: &LoadGear, period: f64, bases: Bases) -> Self {
-        or_stop!(Self::try_new(observer, gear, period, bases))
-    }
-
-    /// An observer's constants in front of a gear, in ticks of this period (s).
-    ///
-    /// # Errors
-    /// [`Error::Value`] for a figure of the gear that is out of its range; [`Error::Coefficient`] for losses above half
-    /// of the shaft torque.
-    pub const fn try_new(observer: C, gear: &LoadGear, period: f64, bases: Bases) -> Result<Self, Error> {
-        get!(bases.check());
-        let [driving, driven, _] = get!(gear.losses(period));
-        let [driving, driven] = get!(fixed([driving, driven], LOAD_FIXED));
-        Ok(LoadGearConfig { observer, driving, driven, stiction_gain: () })
+constants! {
+    /// [`Error::Value`] for a figure of the gear that is out of its range; [`Error::Coefficient`] in fixed point for
+    /// losses above half of the shaft torque.
+    impl[C: Copy] LoadGearConfig[, C], new, try_new(observer: C, gear: &LoadGear, period: f64), |_format| {
+        let [driving, driven, stiction_gain] = get!(gear.losses(period));
+        let [driving, driven] = get!(To::coefficients([driving, driven], LOAD_FIXED));
+        Ok(LoadGearConfig { observer, driving, driven, stiction_gain: To::stiction(stiction_gain) })
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::Fixed;
 
     const GEAR: Gear = Gear { efficiency: 0.8, inertia: 0.5, deadband: 0.01 };
 

@@ -1,7 +1,7 @@
 //! Constants of the composed governor's parts.
 
 use super::constants::constants;
-use super::convert::{fixed, get, or_stop};
+use super::convert::fixed;
 use super::format::ANGLE_PER_RADIAN;
 use super::to::Values;
 use super::{Bases, Error, Format, SpeedLoopSettings};
@@ -77,13 +77,11 @@ impl SequencerSettings {
 }
 
 pub(super) const fn all_finite(values: &[f64]) -> bool {
-    let mut k = 0;
-    while k < values.len() {
+    each!(k, 0..values.len(), {
         if !(values[k] as f32).is_finite() {
             return false;
         }
-        k += 1;
-    }
+    });
     true
 }
 
@@ -318,12 +316,9 @@ constants! {
 }
 
 impl<const K: usize> TransportDelayConfig<K> {
-    /// A delay (s) in ticks of `period` (s).
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    pub const fn new(delay: f64, period: f64) -> Self {
-        or_stop!(Self::try_new(delay, period))
+    stops! {
+        /// A delay (s) in ticks of `period` (s).
+        pub const fn new(delay: f64, period: f64) -> Self = try_new
     }
 
     /// A delay (s) in ticks of `period` (s), to the nearest.

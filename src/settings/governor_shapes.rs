@@ -2,7 +2,6 @@
 //! the input shaper round a governor.
 
 use super::constants::constants;
-use super::convert::get;
 use super::governor_parts::{LIMIT, RAMP, all_finite, between, least_step, ticks};
 use super::to::Values;
 use super::{Bases, Error, Format};
@@ -85,12 +84,10 @@ constants! {
         let ([quick], []) = get!(To::part(quick(quick_ramp, period, &format), RAMP));
         let ([none], []) = get!(To::part(Ok(([0.0], [])), BARRED));
         let mut ranges = [SpeedRange { middle: none, half: none }; K];
-        let mut k = 0;
-        while k < K {
+        each!(k, 0..K, {
             let ([middle, half], []) = get!(To::part(range(barred, k, &format), BARRED));
             ranges[k] = SpeedRange { middle, half };
-            k += 1;
-        }
+        });
         Ok(BarredConfig { ranges, quick })
     }
 }
@@ -102,12 +99,10 @@ constants! {
         let ([min, _], []) = get!(To::part(between(min, format.bases.torque, &format), LIMIT));
         let ([none], [flat]) = get!(To::part(Ok(([0.0], [0.0])), CURVE));
         let mut pieces = [CurvePiece { speed: none, torque: none, slope: flat }; K];
-        let mut k = 0;
-        while k < K {
+        each!(k, 0..K, {
             let ([speed, torque], [slope]) = get!(To::part(piece(curve, k, &format), CURVE));
             pieces[k] = CurvePiece { speed, torque, slope };
-            k += 1;
-        }
+        });
         Ok(CurveConfig { pieces, min })
     }
 }
@@ -120,12 +115,10 @@ constants! {
         let interval = get!(ticks(interval, period));
         let ([none], []) = get!(To::part(Ok(([0.0], [])), STARTER));
         let mut speeds = [none; STEPS];
-        let mut k = 0;
-        while k < STEPS {
+        each!(k, 0..STEPS, {
             let ([speed], []) = get!(To::part(Ok(([start.speeds[k] / format.bases.speed], [])), STARTER));
             speeds[k] = speed;
-            k += 1;
-        }
+        });
         Ok(ResistorStarterConfig { speeds, interval })
     }
 }

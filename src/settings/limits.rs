@@ -2,7 +2,7 @@
 
 use super::Error;
 use super::constants::constants;
-use super::convert::{get, positive};
+use super::convert::positive;
 use super::format::ANGLE_PER_RADIAN;
 use crate::drive::Limits;
 

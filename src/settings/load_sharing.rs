@@ -2,7 +2,6 @@
 
 use super::Error;
 use super::constants::constants;
-use super::convert::get;
 use super::format::ANGLE_PER_RADIAN;
 use crate::governor::LoadSharingConfig;
 

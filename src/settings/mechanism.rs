@@ -2,7 +2,6 @@
 
 use super::Error;
 use super::constants::constants;
-use super::convert::get;
 use crate::angle::RotorAngleConfig;
 use crate::design::MechanismDesign;
 use crate::machine::{DrivenMechanism, MECHANISM_POINTS};
@@ -56,8 +55,7 @@ constants! {
         let mut points = [TablePoint { inertia_ratio: none, inertia_slope: none }; TABLE_POINTS];
         let weight = if TOOLS == 0 { none } else { get!(To::exactly(heavy, DRAG)) };
         let mut tool = [Tool { leverage: [none; TABLE_POINTS], weight }; TOOLS];
-        let mut k = 0;
-        while k < TABLE_POINTS {
+        each!(k, 0..TABLE_POINTS, {
             let [inertia_ratio, inertia_slope, leverage] =
                 design.point(k, mean, format.bases.torque, format.bases.speed, most);
             // With the accelerating torque held within twice the base, the torque that is given stays within the
@@ -75,8 +73,7 @@ constants! {
             if TOOLS > 0 {
                 tool[0].leverage[k] = get!(To::exactly(leverage, DRAG));
             }
-            k += 1;
-        }
+        });
         Ok(MechanismConfig { rigid, turning: get!(design.turning()), points, tool })
     }
 }

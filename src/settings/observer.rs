@@ -1,7 +1,6 @@
 //! Constants of the observers.
 
 use super::constants::constants;
-use super::convert::get;
 use super::format::ANGLE_PER_RADIAN;
 use super::{Bases, Error, Format};
 use crate::design::{PlacedObserver, RigidDesign, StepChoice, TwoMassDesign};

@@ -98,20 +98,15 @@ macro_rules! phasors {
             /// # Errors
             /// A parameter out of its range.
             pub const fn try_new(measured: &PhasorSettings, limits: [f64; CHANNELS]) -> Result<Self, PhasorError> {
-                let (turning, block) = match turning(measured) {
-                    Ok(pair) => pair,
-                    Err(error) => return Err(error),
-                };
+                let (turning, block) = get!(turning(measured));
                 let mut converted = [<$number as Number>::ZERO; CHANNELS];
-                let mut channel = 0;
-                while channel < CHANNELS {
+                each!(channel, 0..CHANNELS, {
                     let $limit = limits[channel];
                     if !($limit > 0.0 && $limit <= $most) {
                         return Err(PhasorError::Limit);
                     }
                     converted[channel] = $convert;
-                    channel += 1;
-                }
+                });
                 Ok(PhasorsConfig { turning, block, limits: converted, steadiness: measured.steadiness })
             }
         }

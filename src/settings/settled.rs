@@ -15,15 +15,12 @@ pub(super) const fn settled(exact: [f64; 4], rounded: [f64; 4], unit: [f64; 4]) 
     }
     let mut best = rounded;
     let mut gap = f64::INFINITY;
-    let mut k = 0;
-    while k < 81 {
+    each!(k, 0..81, {
         let offsets = [k % 3, k / 3 % 3, k / 9 % 3, k / 27];
         let mut tried = rounded;
-        let mut i = 0;
-        while i < 4 {
+        each!(i, 0..4, {
             tried[i] += (offsets[i] as f64 - 1.0) * unit[i];
-            i += 1;
-        }
+        });
         let (t, e) = invariants(tried);
         // n11 and n22 have no unit, and are exactly -2 at half the sample rate, where fixed point's range ends.
         let held = tried[0] >= -2.0 && tried[3] >= -2.0;
@@ -32,8 +29,7 @@ pub(super) const fn settled(exact: [f64; 4], rounded: [f64; 4], unit: [f64; 4]) 
             best = tried;
             gap = excess - e;
         }
-        k += 1;
-    }
+    });
     best
 }
 

@@ -1,7 +1,6 @@
 //! Constants of the speed loop.
 
 use super::constants::constants;
-use super::convert::get;
 use super::governor_parts::{GAIN, LEAST_LIMIT, holds, law, within_base};
 use super::{Bases, Error};
 use crate::design::SpeedLoopDesign;

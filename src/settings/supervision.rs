@@ -1,7 +1,7 @@
 //! Constants of the supervision.
 
 use super::constants::constants;
-use super::convert::{get, positive};
+use super::convert::positive;
 use super::format::ANGLE_PER_RADIAN;
 use super::governor_parts::ticks;
 use super::{Bases, Error};

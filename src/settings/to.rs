@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use super::convert::{fixed, get, per_unit, positive};
+use super::convert::{fixed, per_unit, positive};
 use super::settled::{settled, unit_single};
 use super::{Bases, Error, Format};
 use crate::number::{Coefficient, Fixed, INNOVATION_RANGE, TURN_SHIFT};
@@ -45,6 +45,11 @@ macro_rules! float {
                 Self::number(value, sentence)
             }
 
+            /// The gain that brings a gear to rest.
+            pub(super) const fn stiction(value: f64) -> $float {
+                value as $float
+            }
+
             pub(super) const fn coefficient(value: f64, sentence: &'static str) -> Result<$float, Error> {
                 let [coefficient] = get!(Self::coefficients([value], sentence));
                 Ok(coefficient)
@@ -55,14 +60,12 @@ macro_rules! float {
                 sentence: &'static str,
             ) -> Result<[$float; K], Error> {
                 let mut out = [0.0; K];
-                let mut k = 0;
-                while k < K {
+                each!(k, 0..K, {
                     out[k] = values[k] as $float;
                     if !out[k].is_finite() {
                         return Err(Error::Coefficient(sentence));
                     }
-                    k += 1;
-                }
+                });
                 Ok(out)
             }
 
@@ -79,11 +82,9 @@ macro_rules! float {
             ) -> Result<([$float; A], [$float; B]), Error> {
                 let (numbers, coefficients) = get!(values);
                 let mut out = [0.0; A];
-                let mut k = 0;
-                while k < A {
+                each!(k, 0..A, {
                     out[k] = get!(Self::number(numbers[k], sentence));
-                    k += 1;
-                }
+                });
                 Ok((out, get!(Self::coefficients(coefficients, sentence))))
             }
         }
@@ -128,6 +129,8 @@ impl To<Fixed> {
         Ok(Fixed::from_bits(get!(Self::angle(value, sentence)).to_bits() >> TURN_SHIFT))
     }
 
+    pub(super) const fn stiction(_: f64) {}
+
     pub(super) const fn coefficient(value: f64, sentence: &'static str) -> Result<Coefficient, Error> {
         let [coefficient] = get!(fixed([value], sentence));
         Ok(coefficient)
@@ -157,11 +160,9 @@ impl To<Fixed> {
     ) -> Result<([Fixed; A], [Coefficient; B]), Error> {
         let (numbers, coefficients) = get!(values);
         let mut out = [Fixed::from_bits(0); A];
-        let mut k = 0;
-        while k < A {
+        each!(k, 0..A, {
             out[k] = get!(Self::number(numbers[k], sentence));
-            k += 1;
-        }
+        });
         Ok((out, get!(fixed(coefficients, sentence))))
     }
 }

@@ -1,7 +1,6 @@
 //! Constants of a toothed wheel, from the angles of its teeth.
 
 use super::Error;
-use super::convert::{get, or_stop};
 use crate::math::ln;
 use crate::wheel::{Cam, MOST, RATIOS, Tooth, ToothedWheelConfig, ratio_of};
 
@@ -114,11 +113,9 @@ impl<const TEETH: usize> Teeth<TEETH> {
     /// Teeth at these angles (degree).
     #[must_use]
     pub const fn degrees(mut angles: [f64; TEETH]) -> Self {
-        let mut tooth = 0;
-        while tooth < TEETH {
+        each!(tooth, 0..TEETH, {
             angles[tooth] /= 360.0;
-            tooth += 1;
-        }
+        });
         Teeth { angles }
     }
 }
@@ -181,12 +178,10 @@ impl<const EDGES: usize> Cam<EDGES> {
         let cycle = 360.0 * turns as f64;
         assert!(tolerance > 0.0 && tolerance < 0.5 * cycle, "{}", self::EDGES);
         let mut edges = [0; EDGES];
-        let mut k = 0;
-        while k < EDGES {
+        each!(k, 0..EDGES, {
             assert!(angles[k] >= 0.0 && angles[k] < cycle, "{}", self::EDGES);
             edges[k] = (angles[k] / cycle * TURN) as u32;
-            k += 1;
-        }
+        });
         Cam { edges, tolerance: (tolerance / cycle * TURN) as u32 }
     }
 }
@@ -194,13 +189,9 @@ impl<const EDGES: usize> Cam<EDGES> {
 const TURN: f64 = 4_294_967_296.0;
 
 impl<const TEETH: usize> ToothedWheelConfig<TEETH> {
-    /// The constants of a wheel.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    #[must_use]
-    pub const fn new(teeth: &Teeth<TEETH>, timing: ToothClock) -> Self {
-        or_stop!(Self::try_new(teeth, timing))
+    stops! {
+        /// The constants of a wheel.
+        pub const fn new(teeth: &Teeth<TEETH>, timing: ToothClock) -> Self = try_new
     }
 
     /// The constants of a wheel.
@@ -229,8 +220,7 @@ impl<const TEETH: usize> ToothedWheelConfig<TEETH> {
             return Err(Error::Value(REPEATS));
         }
         let mut placed = [Tooth { angle: 0, span: 0, slack: 0, spans: 0 }; TEETH];
-        let mut k = 0;
-        while k < TEETH {
+        each!(k, 0..TEETH, {
             let (span, next) = (spans[k], spans[(k + 1) % TEETH]);
             let angle = (teeth.angles[k] * TURN + 0.5) as u64 as u32;
             let last = (teeth.angles[(k + TEETH - 1) % TEETH] * TURN + 0.5) as u64 as u32;
@@ -240,8 +230,7 @@ impl<const TEETH: usize> ToothedWheelConfig<TEETH> {
                 slack: (0.5 * TURN * if span < next { span } else { next }) as u32,
                 spans: (4096.0 / span + 0.5) as u32,
             };
-            k += 1;
-        }
+        });
         let fitting = fitting(&spans, sector);
         let (sector, slowest) = (sector as u32, slowest as u32);
         Ok(ToothedWheelConfig { teeth: placed, sector, fitting, turns, slowest, period: 1.0 / clock })
@@ -250,35 +239,30 @@ impl<const TEETH: usize> ToothedWheelConfig<TEETH> {
 
 /// Whether the missing places rise and are among the places.
 const fn rise(places: u32, missing: &[u32]) -> bool {
-    let mut next = 0;
-    while next < missing.len() {
+    each!(next, 0..missing.len(), {
         if missing[next] >= places || (next > 0 && missing[next] <= missing[next - 1]) {
             return false;
         }
-        next += 1;
-    }
+    });
     true
 }
 
 /// From each tooth's predecessor to it (turn).
 const fn spans<const TEETH: usize>(angles: &[f64; TEETH]) -> Result<[f64; TEETH], Error> {
     let mut spans = [0.0; TEETH];
-    let mut k = 0;
-    while k < TEETH {
+    each!(k, 0..TEETH, {
         let last = if k == 0 { angles[TEETH - 1] - 1.0 } else { angles[k - 1] };
         spans[k] = angles[k] - last;
         if !(angles[k] >= 0.0 && angles[k] < 1.0 && spans[k] > 5e-5) {
             return Err(Error::Value(ORDER));
         }
-        k += 1;
-    }
+    });
     Ok(spans)
 }
 
 /// Teeth of the smallest part that repeats.
 const fn sector<const TEETH: usize>(spans: &[f64; TEETH]) -> usize {
-    let mut part = 1;
-    while part < TEETH {
+    each!(part, 1..TEETH, {
         let mut k = 0;
         if TEETH.is_multiple_of(part) {
             while k < TEETH && (spans[k] - spans[(k + part) % TEETH]).abs() < 1e-6 {
@@ -288,8 +272,7 @@ const fn sector<const TEETH: usize>(spans: &[f64; TEETH]) -> usize {
                 return part;
             }
         }
-        part += 1;
-    }
+    });
     TEETH
 }
 
@@ -313,20 +296,16 @@ const fn tolerance<const TEETH: usize>(spans: &[f64; TEETH]) -> f64 {
 const fn fitting<const TEETH: usize>(spans: &[f64; TEETH], sector: usize) -> [[u64; 2]; RATIOS] {
     let mut fitting = [[0; 2]; RATIOS];
     let tolerance = tolerance(spans);
-    let mut k = 0;
-    while k < sector {
+    each!(k, 0..sector, {
         let nominal = ln(spans[k] / spans[(k + TEETH - 1) % TEETH]) / core::f64::consts::LN_2;
-        let mut step = 0;
-        while step < RATIOS {
+        each!(step, 0..RATIOS, {
             let away = ratio_of(step) - nominal;
             let beyond = (step == 0 && away > 0.0) || (step == RATIOS - 1 && away < 0.0);
             if away.abs() <= tolerance || beyond {
                 fitting[step][k / 64] |= 1 << (k % 64);
             }
-            step += 1;
-        }
-        k += 1;
-    }
+        });
+    });
     fitting
 }
 

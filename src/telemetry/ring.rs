@@ -55,11 +55,9 @@ impl<const VALUES: usize, const RECORDS: usize> Ring<VALUES, RECORDS> {
         // the slots
         if let Some(slot) = self.slots.get((head & Self::MASK) as usize) {
             slot.tick.store(tick, Ordering::Relaxed);
-            let mut at = 0;
-            while at < VALUES {
+            each!(at, 0..VALUES, {
                 slot.values[at].store(values[at], Ordering::Relaxed);
-                at += 1;
-            }
+            });
         }
         // release: the values are written before the head
         self.head.store(head.wrapping_add(room as u32), Ordering::Release);

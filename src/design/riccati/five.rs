@@ -50,8 +50,7 @@ pub(super) const fn product(left: &Square, right: &Square) -> Square {
     let [[a0, a1, a2, a3, a4], [b0, b1, b2, b3, b4], [c0, c1, c2, c3, c4], [d0, d1, d2, d3, d4], [e0, e1, e2, e3, e4]] =
         *right;
     let mut product = [[0.0; 5]; 5];
-    let mut i = 0;
-    while i < 5 {
+    each!(i, 0..5, {
         let [x0, x1, x2, x3, x4] = left[i];
         product[i] = [
             0.0 + x0 * a0 + x1 * b0 + x2 * c0 + x3 * d0 + x4 * e0,
@@ -60,19 +59,16 @@ pub(super) const fn product(left: &Square, right: &Square) -> Square {
             0.0 + x0 * a3 + x1 * b3 + x2 * c3 + x3 * d3 + x4 * e3,
             0.0 + x0 * a4 + x1 * b4 + x2 * c4 + x3 * d4 + x4 * e4,
         ];
-        i += 1;
-    }
+    });
     product
 }
 
 pub(super) const fn sum(left: &Square, right: &Square) -> Square {
     let mut sum = *left;
-    let mut i = 0;
-    while i < 5 {
+    each!(i, 0..5, {
         let ([x0, x1, x2, x3, x4], [y0, y1, y2, y3, y4]) = (left[i], right[i]);
         sum[i] = [x0 + y0, x1 + y1, x2 + y2, x3 + y3, x4 + y4];
-        i += 1;
-    }
+    });
     sum
 }
 
@@ -84,12 +80,10 @@ pub(super) const fn transpose(square: &Square) -> Square {
 
 pub(super) const fn symmetric(square: &Square) -> Square {
     let mut twice = sum(square, &transpose(square));
-    let mut i = 0;
-    while i < 5 {
+    each!(i, 0..5, {
         let [x0, x1, x2, x3, x4] = twice[i];
         twice[i] = [0.5 * x0, 0.5 * x1, 0.5 * x2, 0.5 * x3, 0.5 * x4];
-        i += 1;
-    }
+    });
     twice
 }
 
@@ -101,12 +95,10 @@ pub(super) const fn diagonal(square: &Square) -> [f64; 5] {
 /// Whether no sum of sizes down a column overflows, and every element is a number.
 pub(super) const fn is_finite(square: &Square) -> bool {
     let mut sums = [0.0; 5];
-    let mut i = 0;
-    while i < 5 {
+    each!(i, 0..5, {
         let ([x0, x1, x2, x3, x4], [y0, y1, y2, y3, y4]) = (square[i], sums);
         sums = [y0 + x0.abs(), y1 + x1.abs(), y2 + x2.abs(), y3 + x3.abs(), y4 + x4.abs()];
-        i += 1;
-    }
+    });
     let [a, b, c, d, e] = sums;
     a < f64::INFINITY && b < f64::INFINITY && c < f64::INFINITY && d < f64::INFINITY && e < f64::INFINITY
 }
@@ -123,18 +115,15 @@ impl Solver {
     /// `None` where the matrix is singular. Rows are compared with their elements times `weights`.
     pub(super) const fn new(left: &Square, mut weights: [f64; 5]) -> Option<Self> {
         let (mut lu, mut order) = (*left, [0, 1, 2, 3, 4]);
-        let mut pivot = 0;
-        while pivot < 5 {
+        each!(pivot, 0..5, {
             let mut best = pivot;
             let mut largest = (lu[pivot][pivot] * weights[pivot]).abs();
-            let mut i = pivot + 1;
-            while i < 5 {
+            each!(i, (pivot + 1)..5, {
                 let size = (lu[i][pivot] * weights[i]).abs();
                 if size > largest {
                     (best, largest) = (i, size);
                 }
-                i += 1;
-            }
+            });
             // The bound holds anyway: it is there for the compiler, which then leaves no panic in an image.
             if largest == 0.0 || !largest.is_finite() || best >= 5 {
                 return None;
@@ -143,8 +132,7 @@ impl Solver {
             (lu[best], order[best], weights[best]) = (lu[pivot], order[pivot], weights[pivot]);
             (lu[pivot], order[pivot]) = (upper, place);
             let [_, g, h, k, l] = upper;
-            let mut i = pivot + 1;
-            while i < 5 {
+            each!(i, (pivot + 1)..5, {
                 let factor = lu[i][pivot] / upper[pivot];
                 let [a, b, c, d, e] = lu[i];
                 lu[i] = match pivot {
@@ -153,10 +141,8 @@ impl Solver {
                     2 => [a, b, factor, d - factor * k, e - factor * l],
                     _ => [a, b, c, factor, e - factor * l],
                 };
-                i += 1;
-            }
-            pivot += 1;
-        }
+            });
+        });
         Some(Self { order, lu })
     }
 
@@ -171,8 +157,7 @@ impl Solver {
             [e0, e1, e2, e3, e4],
         ] = self.lu;
         let mut solved = [[0.0; 5]; 5];
-        let mut i = 0;
-        while i < 5 {
+        each!(i, 0..5, {
             let column = &right[i];
             let a = at(column, p);
             let b = at(column, q) - b0 * a;
@@ -185,8 +170,7 @@ impl Solver {
             let b = (b - b2 * c - b3 * d - b4 * e) / b1;
             let a = (a - a1 * b - a2 * c - a3 * d - a4 * e) / a0;
             solved[i] = [a, b, c, d, e];
-            i += 1;
-        }
+        });
         solved
     }
 }

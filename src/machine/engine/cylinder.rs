@@ -61,11 +61,9 @@ impl Cylinder {
     #[must_use]
     pub const fn in_line<const N: usize>(throws: [f64; N], pitch: Length) -> [Self; N] {
         let mut all = [Self::new(0.0, 0.0, Length(0.0)); N];
-        let mut j = 0;
-        while j < N {
+        each!(j, 0..N, {
             all[j] = Self::new(throws[j], 0.0, Length(pitch.0 * j as f64));
-            j += 1;
-        }
+        });
         all
     }
 
@@ -74,12 +72,10 @@ impl Cylinder {
     #[must_use]
     pub const fn vee<const N: usize>(throws: [f64; N], angle: f64, pitch: Length) -> [Self; N] {
         let mut all = [Self::new(0.0, 0.0, Length(0.0)); N];
-        let mut j = 0;
-        while j < N {
+        each!(j, 0..N, {
             let bank = if j % 2 == 0 { -0.5 * angle } else { 0.5 * angle };
             all[j] = Self::new(throws[j], bank, Length(pitch.0 * (j / 2) as f64));
-            j += 1;
-        }
+        });
         all
     }
 
@@ -87,12 +83,10 @@ impl Cylinder {
     #[must_use]
     pub const fn boxer<const N: usize>(throws: [f64; N], pitch: Length) -> [Self; N] {
         let mut all = [Self::new(0.0, 0.0, Length(0.0)); N];
-        let mut j = 0;
-        while j < N {
+        each!(j, 0..N, {
             let bank = if j % 2 == 0 { 0.0 } else { PI };
             all[j] = Self::new(throws[j], bank, Length(pitch.0 * j as f64));
-            j += 1;
-        }
+        });
         all
     }
 
@@ -101,11 +95,9 @@ impl Cylinder {
     #[must_use]
     pub const fn star<const N: usize>() -> [Self; N] {
         let mut all = [Self::new(0.0, 0.0, Length(0.0)); N];
-        let mut j = 0;
-        while j < N {
+        each!(j, 0..N, {
             all[j] = Self::new(0.0, TAU * j as f64 / N as f64, Length(0.0));
-            j += 1;
-        }
+        });
         all
     }
 
@@ -136,13 +128,11 @@ impl Cylinder {
         }
         let (mut j, mut begin, mut last) = (0, 0.0, 0.0);
         while j < order.len() {
-            let mut before = 0;
-            while before < j {
+            each!(before, 0..j, {
                 if order[before] == order[j] {
                     return Err(Error::FiringOrder);
                 }
-                before += 1;
-            }
+            });
             if order[j] == 0 || order[j] > cylinders.len() {
                 return Err(Error::FiringOrder);
             }

@@ -48,8 +48,7 @@ impl Indicator {
     #[must_use]
     pub const fn sample<const M: usize>(&self, crank: &CrankSlider, cycle: WorkingCycle) -> [f64; M] {
         let mut pressure = [self.charge - CRANKCASE; M];
-        let mut j = 0;
-        while j < M {
+        each!(j, 0..M, {
             let whole = cycle.angle();
             let angle = whole * (j as f64 / M as f64);
             let volume = 1.0 + (self.compression - 1.0) * crank.travel(angle).travel / (2.0 * crank.radius.0);
@@ -58,8 +57,7 @@ impl Indicator {
             } else if angle > whole - PI {
                 pressure[j] = self.charge * exp(self.exponent * ln(self.compression / volume)) - CRANKCASE;
             }
-            j += 1;
-        }
+        });
         pressure
     }
 }

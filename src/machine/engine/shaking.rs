@@ -89,8 +89,7 @@ pub const fn free_moments(cylinders: &[Cylinder], order: u32, about: f64) -> Sha
 const fn sum(cylinders: &[Cylinder], order: u32, about: Option<f64>) -> Shaking {
     let n = order as f64;
     let (mut forward, mut backward) = ([0.0; 2], [0.0; 2]);
-    let mut j = 0;
-    while j < cylinders.len() {
+    each!(j, 0..cylinders.len(), {
         let Cylinder { throw, bank, position, .. } = cylinders[j];
         let half = match about {
             Some(about) => 0.5 * (position - about),
@@ -101,7 +100,6 @@ const fn sum(cylinders: &[Cylinder], order: u32, about: Option<f64>) -> Shaking 
         forward = [forward[0] + half * cosine, forward[1] + half * sine];
         let (sine, cosine) = sin_cos(bank - n * (throw - bank));
         backward = [backward[0] + half * cosine, backward[1] + half * sine];
-        j += 1;
-    }
+    });
     Shaking { forward, backward }
 }

@@ -37,17 +37,13 @@ impl CrankSlider {
     #[must_use]
     pub const fn mass_torque<const N: usize>(&self, speed: f64) -> [f64; N] {
         let mut sines = [0.0; N];
-        let mut j = 0;
-        while j < ANGLES {
+        each!(j, 0..ANGLES, {
             let torque = -0.5 * self.inertia(j as f64 * (TAU / ANGLES as f64)).derivative * speed * speed;
-            let mut k = 0;
-            while k < N {
+            each!(k, 0..N, {
                 sines[k] +=
                     torque * sin_cos(((k * j) % ANGLES) as f64 * (TAU / ANGLES as f64)).0 / (0.5 * ANGLES as f64);
-                k += 1;
-            }
-            j += 1;
-        }
+            });
+        });
         sines
     }
 
@@ -66,20 +62,16 @@ impl CrankSlider {
         let mut orders = [Harmonic { cosine: 0.0, sine: 0.0 }; N];
         let area = 0.25 * PI * bore.0 * bore.0;
         let count = pressure.len();
-        let mut j = 0;
-        while j < count {
+        each!(j, 0..count, {
             let angle = cycle.angle() * (j as f64 / count as f64);
             let torque = pressure[j] * area * self.travel(angle).first / count as f64;
-            let mut k = 0;
-            while k < N {
+            each!(k, 0..N, {
                 let (sine, cosine) = sin_cos(((k * j) % count) as f64 * (TAU / count as f64));
                 let twice = if k == 0 { torque } else { 2.0 * torque };
                 orders[k].cosine += twice * cosine;
                 orders[k].sine += twice * sine;
-                k += 1;
-            }
-            j += 1;
-        }
+            });
+        });
         orders
     }
 }

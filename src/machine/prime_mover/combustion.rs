@@ -49,16 +49,9 @@ pub struct Combustion {
 }
 
 impl Combustion {
-    /// From the rated point, the idle speed and the speed without load.
-    ///
-    /// # Panics
-    /// At compile time in a constant, where a value is out of range.
-    #[must_use]
-    pub const fn new(mixture: CombustionType, rated: (Speed, Torque), idle: Speed, no_load: Speed) -> Self {
-        match Self::try_new(mixture, rated, idle, no_load) {
-            Ok(engine) => engine,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// From the rated point, the idle speed and the speed without load.
+        pub const fn new(mixture: CombustionType, rated: (Speed, Torque), idle: Speed, no_load: Speed) -> Self = try_new
     }
 
     /// [`new`](Self::new), with an error for a value out of range.

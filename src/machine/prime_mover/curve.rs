@@ -14,16 +14,9 @@ pub struct Line {
 }
 
 impl Line {
-    /// Through the rated point and the speed without load.
-    ///
-    /// # Panics
-    /// At compile time in a constant, where the speeds are alike or not finite.
-    #[must_use]
-    pub const fn new(rated: (Speed, Torque), no_load: Speed) -> Self {
-        match Self::try_new(rated, no_load) {
-            Ok(line) => line,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// Through the rated point and the speed without load.
+        pub const fn new(rated: (Speed, Torque), no_load: Speed) -> Self = try_new
     }
 
     /// [`new`](Self::new), with an error for a value out of range.
@@ -59,16 +52,9 @@ pub struct Parabola {
 }
 
 impl Parabola {
-    /// Through three points.
-    ///
-    /// # Panics
-    /// At compile time in a constant, where two speeds are alike or a number is not finite.
-    #[must_use]
-    pub const fn through(points: [(Speed, Torque); 3]) -> Self {
-        match Self::try_through(points) {
-            Ok(parabola) => parabola,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// Through three points.
+        pub const fn through(points: [(Speed, Torque); 3]) -> Self = try_through
     }
 
     /// [`through`](Self::through), with an error for a value out of range.

@@ -16,16 +16,9 @@ pub struct Shunt {
 }
 
 impl Shunt {
-    /// From voltage (V), resistance (ohm) and flux (V s).
-    ///
-    /// # Panics
-    /// At compile time in a constant, where a value is out of range.
-    #[must_use]
-    pub const fn new(voltage: f64, resistance: f64, flux: f64) -> Self {
-        match Self::try_new(voltage, resistance, flux) {
-            Ok(motor) => motor,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// From voltage (V), resistance (ohm) and flux (V s).
+        pub const fn new(voltage: f64, resistance: f64, flux: f64) -> Self = try_new
     }
 
     /// [`new`](Self::new), with an error for a value out of range.
@@ -72,16 +65,9 @@ pub struct Series {
 }
 
 impl Series {
-    /// From voltage (V), resistance (ohm) and torque over the square of the current (H).
-    ///
-    /// # Panics
-    /// At compile time in a constant, where a value is out of range.
-    #[must_use]
-    pub const fn new(voltage: f64, resistance: f64, flux: f64) -> Self {
-        match Self::try_new(voltage, resistance, flux) {
-            Ok(motor) => motor,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// From voltage (V), resistance (ohm) and torque over the square of the current (H).
+        pub const fn new(voltage: f64, resistance: f64, flux: f64) -> Self = try_new
     }
 
     /// [`new`](Self::new), with an error for a value out of range.

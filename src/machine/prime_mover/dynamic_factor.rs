@@ -98,15 +98,13 @@ impl TwoMass {
 /// The angle of the peak in a medium start, the root of `(a^2 + 2) sin theta = 2 theta` below pi, halved to rounding.
 const fn medium_peak(a: f64) -> f64 {
     let (mut low, mut high) = (0.0, PI);
-    let mut halvings = 0;
-    while halvings < 60 {
+    each!(halvings, 0..60, {
         let middle = 0.5 * (low + high);
         if (a * a + 2.0) * sin_cos(middle).0 > 2.0 * middle {
             low = middle;
         } else {
             high = middle;
         }
-        halvings += 1;
-    }
+    });
     0.5 * (low + high)
 }

@@ -21,16 +21,9 @@ pub struct Induction {
 }
 
 impl Induction {
-    /// From the rated point, the synchronous speed and the overload capacity (breakdown torque over rated torque).
-    ///
-    /// # Panics
-    /// At compile time in a constant, where a value is out of range.
-    #[must_use]
-    pub const fn new(rated_speed: Speed, rated: Torque, synchronous: Speed, overload: f64) -> Self {
-        match Self::try_new(rated_speed, rated, synchronous, overload) {
-            Ok(motor) => motor,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// From the rated point, the synchronous speed and the overload capacity (breakdown torque over rated torque).
+        pub const fn new(rated_speed: Speed, rated: Torque, synchronous: Speed, overload: f64) -> Self = try_new
     }
 
     /// [`new`](Self::new), with an error for a value out of range.
@@ -52,17 +45,10 @@ impl Induction {
         Ok(Self { synchronous: synchronous.0, breakdown: overload * rated.0, breakdown_slip: slip * steepness })
     }
 
-    /// The same motor with resistors at its slip rings: the rotor's whole resistance over its own. The breakdown torque
-    /// stays, its slip grows by that factor [derived; shape: Wang 1989 §1-2].
-    ///
-    /// # Panics
-    /// At compile time in a constant, where the factor is not positive and finite.
-    #[must_use]
-    pub const fn rotor_resistance(self, factor: f64) -> Self {
-        match self.try_rotor_resistance(factor) {
-            Ok(motor) => motor,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// The same motor with resistors at its slip rings: the rotor's whole resistance over its own. The breakdown
+        /// torque stays, its slip grows by that factor [derived; shape: Wang 1989 §1-2].
+        pub const fn rotor_resistance(self, factor: f64) -> Self = try_rotor_resistance
     }
 
     /// [`rotor_resistance`](Self::rotor_resistance), with an error for a value out of range.

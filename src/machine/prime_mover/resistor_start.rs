@@ -26,24 +26,19 @@ pub struct ResistorStart<const STEPS: usize> {
 }
 
 impl Induction {
-    /// The resistors of a start in steps from standstill, none of which exceeds a torque.
-    ///
-    /// ```
-    /// # use driveline::machine::{Induction, ResistorStart, Speed, Torque};
-    /// const MOTOR: Induction = Induction::new(Speed(100.0), Torque(900.0), Speed(104.72), 2.8);
-    /// const START: ResistorStart<4> = MOTOR.resistor_start(Torque(1800.0));
-    /// assert!(START.switching > 900.0);
-    /// ```
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that
-    /// [`try_resistor_start`](Self::try_resistor_start) returns.
-    #[must_use]
-    pub const fn resistor_start<const STEPS: usize>(&self, peak: Torque) -> ResistorStart<STEPS> {
-        match self.try_resistor_start(peak) {
-            Ok(start) => start,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// The resistors of a start in steps from standstill, none of which exceeds a torque.
+        ///
+        /// ```
+        /// # use driveline::machine::{Induction, ResistorStart, Speed, Torque};
+        /// const MOTOR: Induction = Induction::new(Speed(100.0), Torque(900.0), Speed(104.72), 2.8);
+        /// const START: ResistorStart<4> = MOTOR.resistor_start(Torque(1800.0));
+        /// assert!(START.switching > 900.0);
+        /// ```
+        pub const fn resistor_start<const STEPS: usize>(
+            &self,
+            peak: Torque,
+        ) -> ResistorStart<STEPS> = try_resistor_start
     }
 
     /// [`resistor_start`](Self::resistor_start), with an error instead of a panic.
@@ -62,14 +57,12 @@ impl Induction {
         let ratio = exp(ln(first) / STEPS as f64);
         let low = high / ratio;
         let (mut resistances, mut speeds) = ([first; STEPS], [0.0; STEPS]);
-        let mut step = 0;
-        while step < STEPS {
+        each!(step, 0..STEPS, {
             if step > 0 {
                 resistances[step] = resistances[step - 1] / ratio;
             }
             speeds[step] = self.synchronous * (1.0 - low * self.breakdown_slip * resistances[step]);
-            step += 1;
-        }
+        });
         let switching = 2.0 * self.breakdown * low / (1.0 + low * low);
         Ok(ResistorStart { peak: peak.0, switching, resistances, speeds })
     }

@@ -30,26 +30,18 @@ impl Induction {
         Induction { breakdown: share * share * self.breakdown, ..self }
     }
 
-    /// A start by reduced voltage that does not exceed a torque.
-    ///
-    /// ```
-    /// # use driveline::machine::{Induction, Inertia, Parabola, Rigid, SoftStart, Speed, Torque};
-    /// const MOTOR: Induction = Induction { synchronous: 104.72, breakdown: 2500.0, breakdown_slip: 0.4 };
-    /// const START: SoftStart = MOTOR.soft_start(Torque(1200.0), 0.5, 1.0);
-    /// const PUMP: Parabola = Parabola { constant: 200.0, linear: 0.0, square: 0.05 };
-    /// let time = START.time_to(&MOTOR, &Rigid::new(Inertia(60.0)), &PUMP, Speed(95.0));
-    /// assert!(time > 60.0 * 95.0 / 1000.0);
-    /// ```
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that
-    /// [`try_soft_start`](Self::try_soft_start) returns.
-    #[must_use]
-    pub const fn soft_start(&self, peak: Torque, initial: f64, rise: f64) -> SoftStart {
-        match self.try_soft_start(peak, initial, rise) {
-            Ok(start) => start,
-            Err(error) => error.stop(),
-        }
+    stops! {
+        /// A start by reduced voltage that does not exceed a torque.
+        ///
+        /// ```
+        /// # use driveline::machine::{Induction, Inertia, Parabola, Rigid, SoftStart, Speed, Torque};
+        /// const MOTOR: Induction = Induction { synchronous: 104.72, breakdown: 2500.0, breakdown_slip: 0.4 };
+        /// const START: SoftStart = MOTOR.soft_start(Torque(1200.0), 0.5, 1.0);
+        /// const PUMP: Parabola = Parabola { constant: 200.0, linear: 0.0, square: 0.05 };
+        /// let time = START.time_to(&MOTOR, &Rigid::new(Inertia(60.0)), &PUMP, Speed(95.0));
+        /// assert!(time > 60.0 * 95.0 / 1000.0);
+        /// ```
+        pub const fn soft_start(&self, peak: Torque, initial: f64, rise: f64) -> SoftStart = try_soft_start
     }
 
     /// [`soft_start`](Self::soft_start), with an error instead of a panic.
@@ -92,15 +84,13 @@ impl SoftStart {
             }
             // Runge and Kutta's step of fourth order
             let mut rates = [0.0; 4];
-            let mut k = 0;
-            while k < 4 {
+            each!(k, 0..4, {
                 let part = [0.0, 0.5, 0.5, 1.0][k] * step;
                 let then = speed + part * if k > 0 { rates[k - 1] } else { 0.0 };
                 let share = self.share(motor, then, share, part * rate);
                 let torque = share * share * motor.torque(Speed(then)).0 - load.torque(Speed(then)).0;
                 rates[k] = torque / machine.inertia;
-                k += 1;
-            }
+            });
             let next = (speed + step * (rates[0] + 2.0 * (rates[1] + rates[2]) + rates[3]) / 6.0).max(0.0);
             share = self.share(motor, next, share, step * rate);
             if next >= to.0 {

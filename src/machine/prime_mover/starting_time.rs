@@ -77,17 +77,13 @@ impl Characteristic {
 /// `integral of under/(over - load under)` from one speed to another, 0 where the other is not above.
 const fn duration(over: [f64; 3], under: [f64; 3], load: [f64; 3], from: f64, to: f64) -> f64 {
     let (mut surplus, mut below) = ([0.0; 5], [0.0; 5]);
-    let mut i = 0;
-    while i < 3 {
+    each!(i, 0..3, {
         surplus[i] += over[i];
         below[i] = under[i];
-        let mut j = 0;
-        while j < 3 {
+        each!(j, 0..3, {
             surplus[i + j] -= load[i] * under[j];
-            j += 1;
-        }
-        i += 1;
-    }
+        });
+    });
     let (mut sum, mut speed) = (0.0, from);
     while speed < to {
         let left = to - speed;
@@ -100,14 +96,12 @@ const fn duration(over: [f64; 3], under: [f64; 3], load: [f64; 3], from: f64, to
             }
         }
         let (middle, half) = (speed + 0.5 * length, 0.5 * length);
-        let mut node = 0;
-        while node < GAUSS.len() {
+        each!(node, 0..GAUSS.len(), {
             let [at, weight] = GAUSS[node];
             let (left, right) = (middle - half * at, middle + half * at);
             sum += half * weight * (value(&below, left) / value(&surplus, left));
             sum += half * weight * (value(&below, right) / value(&surplus, right));
-            node += 1;
-        }
+        });
         speed = if length == left { to } else { speed + length };
     }
     sum
@@ -117,8 +111,7 @@ const fn duration(over: [f64; 3], under: [f64; 3], load: [f64; 3], from: f64, to
 const fn is_far(polynomial: &Polynomial, at: f64, radius: f64) -> bool {
     // Taylor's coefficients at the place, by Horner's scheme again and again.
     let mut shifted = *polynomial;
-    let mut row = 0;
-    while row < 4 {
+    each!(row, 0..4, {
         let mut k = 3;
         while k + 1 > row {
             shifted[k] += at * shifted[k + 1];
@@ -127,8 +120,7 @@ const fn is_far(polynomial: &Polynomial, at: f64, radius: f64) -> bool {
             }
             k -= 1;
         }
-        row += 1;
-    }
+    });
     let (mut swing, mut power, mut k) = (0.0, 1.0, 1);
     while k < 5 {
         power *= radius;
