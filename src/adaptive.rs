@@ -144,7 +144,6 @@ const STEPS: u32 = 100;
 const TRANSFER: u32 = 5;
 const BLOCK: u32 = 10;
 
-/// Ticks of a step.
 const fn ticks_of_step(rate_hz: u32) -> u32 {
     if rate_hz < STEPS { 1 } else { rate_hz / STEPS }
 }

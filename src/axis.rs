@@ -109,7 +109,6 @@ pub struct Axis<P, D: Composition> {
     board: P,
     drive: D,
     tripping: Faults,
-    /// The last output.
     set: D::Number,
     enabled: bool,
     /// Parts of the board that failed and have not recovered.

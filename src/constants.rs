@@ -1,11 +1,20 @@
 //! Loops, `?` and `unwrap` for `const fn`, which has none of them.
 
-/// A block for each value of an integer in a range, of which the start is one token or in parentheses. No `continue`.
+/// A block for each value of an integer in a range, or while a condition holds. The range starts with one token, or in
+/// parentheses. No `continue`.
 macro_rules! each {
     ($k:ident, $from:tt..$to:expr, $body:block) => {{
         #[allow(unused_parens)]
         let mut $k = $from;
         while $k < $to {
+            $body
+            $k += 1;
+        }
+    }};
+    ($k:ident, $from:tt.., $while:expr, $body:block) => {{
+        #[allow(unused_parens)]
+        let mut $k = $from;
+        while $while {
             $body
             $k += 1;
         }

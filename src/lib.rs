@@ -115,6 +115,7 @@ pub mod number;
 pub mod observer;
 #[cfg(feature = "parameters")]
 pub mod parameters;
+mod parts;
 pub mod prelude;
 pub mod sample;
 pub mod scheduling;
@@ -123,32 +124,26 @@ pub mod settings;
 pub mod telemetry;
 pub mod wheel;
 
-/// The listings of the book.
 #[cfg(doctest)]
 #[doc = include_str!("../doc/first-drive.md")]
 mod first_drive_on_a_board {}
 
-/// The listing of the hoist.
 #[cfg(doctest)]
 #[doc = include_str!("../doc/hoist.md")]
 mod hoist {}
 
-/// The listing of the generator set.
 #[cfg(doctest)]
 #[doc = include_str!("../doc/generator-set.md")]
 mod generator_set {}
 
-/// The listing of the rolling mill.
 #[cfg(doctest)]
 #[doc = include_str!("../doc/rolling-mill.md")]
 mod rolling_mill {}
 
-/// The listing of the rotor that balances itself.
 #[cfg(all(doctest, feature = "balancing"))]
 #[doc = include_str!("../doc/self-balancing.md")]
 mod self_balancing {}
 
-/// The listings of the README.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 mod readme {}

@@ -24,6 +24,56 @@
 //! *Base*: unit of a fixed-point number. *Coast*: a tick without a usable angle, by prediction
 //! alone. *Innovation*: measured less predicted motor angle (2^-32 turn).
 
+/// What an observer around another hands on unchanged.
+macro_rules! handed_on {
+    () => {
+        fn switch(&mut self, from: &Self::Config, to: &Self::Config) {
+            self.observer.switch(&from.observer, &to.observer);
+        }
+
+        fn speed_of_turn(config: &Self::Config, turned: N) -> N {
+            O::speed_of_turn(&config.observer, turned)
+        }
+
+        fn resync(&mut self, angle: u32) {
+            self.observer.resync(angle);
+        }
+
+        #[inline(always)]
+        fn known_torque(&self, config: &Self::Config) -> N {
+            self.observer.known_torque(&config.observer)
+        }
+
+        #[inline(always)]
+        fn angle(&self) -> u32 {
+            self.observer.angle()
+        }
+
+        #[inline(always)]
+        fn beyond_base(&self) -> u32 {
+            self.observer.beyond_base()
+        }
+    };
+}
+
+/// What every observer does with its tracker of the angle.
+macro_rules! tracked {
+    () => {
+        fn speed_of_turn(config: &Self::Config, turned: N) -> N {
+            turned.speed_of_turn(config.speed)
+        }
+
+        fn resync(&mut self, angle: u32) {
+            self.angle = AngleTracker::new(angle);
+        }
+
+        #[inline(always)]
+        fn angle(&self) -> u32 {
+            self.angle.angle()
+        }
+    };
+}
+
 mod angle;
 mod backlash;
 mod force_limit;

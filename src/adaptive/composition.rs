@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use super::{Adaptive, AdaptiveConfig, INTERRUPTED, Learning, Scheduling};
 use crate::configure::{Configure, Machine, Refusal, Units};
-use crate::drive::{Composition, ConfigOf, GovernorConfigOf, MADE_UP, ObserverConfigOf, VibrationOf, handed_on};
+use crate::drive::{Composition, ConfigOf, GovernorConfigOf, MADE_UP, ObserverConfigOf, VibrationOf, handed_on, own};
 use crate::fault::Faults;
 use crate::number::Part;
 use crate::sample::{Command, Estimate, Sample};
@@ -86,14 +86,11 @@ where
 
     handed_on!(mut);
 
-    #[inline(always)]
-    fn new(config: &Self::Config, angle: u32) -> Self {
-        Adaptive::new(config, angle)
-    }
-
-    #[inline(always)]
-    fn tick(&mut self, config: &Self::Config, sample: &Sample<D::Number>) -> Command<D::Number> {
-        Adaptive::tick(self, config, sample)
+    own! { Adaptive:
+        fn new(config: &Self::Config, angle: u32) -> Self;
+        fn tick(&mut self, config: &Self::Config, sample: &Sample<D::Number>) -> Command<D::Number>;
+        fn hold(&mut self, config: &Self::Config, angle: u32, torque: D::Number) -> Command<D::Number>;
+        fn estimate(&self, config: &Self::Config) -> Estimate<D::Number>;
     }
 
     #[inline(always)]
@@ -124,10 +121,6 @@ where
         self.count(command)
     }
 
-    fn hold(&mut self, config: &Self::Config, angle: u32, torque: D::Number) -> Command<D::Number> {
-        Adaptive::hold(self, config, angle, torque)
-    }
-
     fn engage(&mut self, _: &Self::Config) {
         self.drive.engage(&self.config);
         self.passed |= INTERRUPTED;
@@ -144,10 +137,5 @@ where
 
     fn vibration(&mut self, _: &Self::Config, vibration: &VibrationOf<Self>) {
         self.drive.vibration(&self.config, vibration);
-    }
-
-    #[inline(always)]
-    fn estimate(&self, config: &Self::Config) -> Estimate<D::Number> {
-        Adaptive::estimate(self, config)
     }
 }

@@ -8,7 +8,7 @@ use crate::learning::{
     TorqueConstant, TorqueConstantConfig,
 };
 use crate::machine::STANDARD_GRAVITY;
-use crate::number::{Magnitude, Number, Part};
+use crate::number::{Magnitude, Number};
 use crate::sample::Estimate;
 
 /// Learners of the gear's friction and the encoder's eccentricity, and under named loads of the torque constant, the
@@ -33,10 +33,6 @@ pub struct LearnersState<N: Units> {
     motor: f32,
     /// At the last step (rad/s).
     speed: f32,
-}
-
-impl<N: Units> Part<N> for Learners {
-    type State = LearnersState<N>;
 }
 
 /// Learners of a drive `D` of the machine `M`: the state of the last slot of an [`Adaptive`](super::Adaptive) drive.

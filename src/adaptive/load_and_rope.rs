@@ -30,10 +30,6 @@ pub struct LoadAndRopeState<const A: usize, const B: usize> {
     ticks: u32,
 }
 
-impl<N, const A: usize, const B: usize> Part<N> for LoadAndRope<A, B> {
-    type State = LoadAndRopeState<A, B>;
-}
-
 /// A schedule of a drive `D` of the machine `M`: the state of the third slot of an [`Adaptive`](super::Adaptive) drive.
 /// Without one, `()`, the gains are those of the machine.
 pub trait Scheduling<M: Machine, D: Composition>: Sized {

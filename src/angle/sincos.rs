@@ -7,15 +7,12 @@
 use crate::math::sin_cos;
 use crate::number::{Fixed, Number};
 
-/// Places on a turn.
 const PLACES: usize = 128;
-/// Places of a quarter.
 const QUARTER: usize = PLACES / 4;
 /// Binary places of an angle.
 const ANGLE: u32 = 26;
 /// Those below the place.
 const BELOW: u32 = ANGLE - PLACES.trailing_zeros();
-/// One in fixed point.
 const ONE: i32 = 1 << 24;
 
 /// The sine at each place, for a tangent half a place either way whose ends are as far out as its middle is in.

@@ -211,25 +211,6 @@ mod tests {
         }
     }
 
-    #[test]
-    fn limits_are_positive_and_finite() {
-        for limit in [0.0, -1.0, f64::INFINITY, f64::NAN] {
-            let aim = Aim { limits: [Some(limit)], ..Aim::default() };
-            assert_eq!(one(1.0).correct(&[re(1.0)], &aim), Err(Error::Setting { index: 0 }), "{limit}");
-        }
-    }
-
-    #[test]
-    fn weightings_are_positive_or_zero() {
-        let refused = |weighting: f64| {
-            one(1.0).correct(&[re(1.0)], &Aim { weighting: [weighting], ..Aim::default() }).unwrap_err()
-        };
-        for weighting in [-1.0, f64::INFINITY, f64::NAN] {
-            assert_eq!(refused(weighting), Error::Setting { index: 0 }, "{weighting}");
-        }
-        assert_eq!(refused(0.0), Error::MorePlanesThanReadings { planes: 1, readings: 0 });
-    }
-
     /// Weights at their limit, and a solution that leaves no more than rounding, are not searched for.
     #[test]
     fn nothing_is_searched_for_without_need() {

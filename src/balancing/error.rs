@@ -6,95 +6,50 @@ use core::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "the text of a variant says what its fields are")]
 pub enum Error {
     /// More planes, readings or runs than the type has room for, or none.
     Size,
     /// A plane that does not exist.
-    NoPlane {
-        /// The requested plane.
-        plane: usize,
-    },
+    NoPlane { plane: usize },
     /// A trial weight of zero.
-    TrialWeightZero {
-        /// Its plane.
-        plane: usize,
-    },
+    TrialWeightZero { plane: usize },
     /// A weight that is not a number.
-    Weight {
-        /// Its plane.
-        plane: usize,
-    },
-    /// A reading is missing: fewer readings than rows.
-    ReadingMissing {
-        /// The first row without one.
-        row: usize,
-    },
+    Weight { plane: usize },
+    /// Fewer readings than rows; the first row without one.
+    ReadingMissing { row: usize },
     /// A reading that is not a number.
-    Reading {
-        /// Its row.
-        row: usize,
-    },
+    Reading { row: usize },
     /// The trial weight changed nothing.
-    NoEffect {
-        /// Its plane.
-        plane: usize,
-    },
+    NoEffect { plane: usize },
     /// The trial run of a plane is there already, and cannot be replaced.
-    TrialRepeated {
-        /// The plane.
-        plane: usize,
-    },
+    TrialRepeated { plane: usize },
     /// The influence of a plane is not known yet.
-    PlaneUnknown {
-        /// The plane.
-        plane: usize,
-    },
+    PlaneUnknown { plane: usize },
     /// More planes than readings.
-    MorePlanesThanReadings {
-        /// Planes.
-        planes: usize,
-        /// Readings.
-        readings: usize,
-    },
+    MorePlanesThanReadings { planes: usize, readings: usize },
     /// Modal balancing takes as many planes as modes, or two more.
-    ModalPlanes {
-        /// Modes.
-        modes: usize,
-        /// Planes.
-        planes: usize,
-    },
-    /// A weighting of a reading, or a limit of a weight, that is not positive.
-    Setting {
-        /// The row or the plane.
-        index: usize,
-    },
+    ModalPlanes { modes: usize, planes: usize },
+    /// A weighting of a reading, or a limit of a weight, that is not positive; the row or the plane.
+    Setting { index: usize },
     /// The search ended too far from the optimum.
     NotProven,
     /// Trial weights at one place, or three or more on one line through the shaft.
     TrialAngles,
     /// No influence gives such amplitudes.
     AmplitudesDisagree,
-    /// Runs at different speeds.
-    SpeedDiffers {
-        /// The row whose speed is not that of its baseline.
-        row: usize,
-    },
+    /// Runs at different speeds; the row whose speed is not that of its baseline.
+    SpeedDiffers { row: usize },
     /// All phases are so small that they must be in radians.
     PhasesInRadians,
     /// This step has nothing before it to build on.
     TooEarly,
-    /// A record that was not written by this procedure, or is damaged.
-    Record {
-        /// The word at which that shows.
-        word: usize,
-    },
+    /// A record that was not written by this procedure, or is damaged; the word at which that shows.
+    Record { word: usize },
     /// There are no holes, or no weights, to choose from.
     NothingToFit,
     /// The weight is more than all holes can take.
-    TooHeavy {
-        /// The plane.
-        plane: usize,
-    },
+    TooHeavy { plane: usize },
 }
 
 impl Error {

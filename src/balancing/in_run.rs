@@ -401,7 +401,6 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
         Action::Abort(self.best.1, reason)
     }
 
-    /// Sets weights.
     fn go(&mut self, to: [Complex<T>; PLANES]) -> Action<T, PLANES> {
         self.installed(&to);
         Action::Set(to)

@@ -4,7 +4,6 @@
 
 use super::scalar::{Complex, Scalar, square, zero};
 
-/// A matrix of `ROWS` by `COLUMNS`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Matrix<T: Scalar, const ROWS: usize, const COLUMNS: usize>([[Complex<T>; COLUMNS]; ROWS]);
 
@@ -50,14 +49,12 @@ pub(crate) fn pick<V: Copy>(list: &[V], index: usize, or: V) -> V {
     list.get(index).copied().unwrap_or(or)
 }
 
-/// Writes the value at an index, if there is one.
 pub(crate) fn put<V>(list: &mut [V], index: usize, value: V) {
     if let Some(at) = list.get_mut(index) {
         *at = value;
     }
 }
 
-/// Swaps two values of a list.
 pub(crate) fn swap<V: Copy>(list: &mut [V], a: usize, b: usize) {
     if let (Some(x), Some(y)) = (list.get(a).copied(), list.get(b).copied()) {
         put(list, a, y);

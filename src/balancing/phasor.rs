@@ -13,7 +13,6 @@ use super::{Balancer, PhasorsConfig, ReadingFault, Steadiness};
 use crate::angle::Passed;
 use crate::angle::{RotorAngle, Synchronous};
 use crate::fault::Faults;
-use crate::number::Part;
 
 /// A measurement of `CHANNELS` channels that ends after `EDGES - 1` blocks, and the reading until the next one is
 /// begun.
@@ -36,10 +35,6 @@ pub struct Phasors<const CHANNELS: usize, const EDGES: usize, N: Synchronous = f
     /// Times that the rotor passed its zero backwards.
     back: u32,
     edges: [Edge<N, CHANNELS>; EDGES],
-}
-
-impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Part<N> for Phasors<CHANNELS, EDGES> {
-    type State = Phasors<CHANNELS, EDGES, N>;
 }
 
 impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Default for Phasors<CHANNELS, EDGES, N> {
@@ -255,18 +250,6 @@ mod tests {
         assert!(is_at(&phasors, 8 << 28) && phasors.blocks() == 0);
         phasors.measure(&config, 4 << 28, &[0.0]);
         assert!(is_at(&phasors, 9 << 28));
-    }
-
-    /// Five turns of the rotor to one of the motor: 7/16 of a turn at once are two and 3/16, of which a tick wraps one.
-    #[test]
-    fn a_jump_over_turns_keeps_the_angle() {
-        let config = PhasorsConfig::<f64, 1>::new(&PhasorSettings { rotor_turns: 5, ..PhasorSettings::DIRECT }, [1.0]);
-        let mut phasors = Phasors::<1, 4, f64>::default();
-        for _ in 0..3 {
-            phasors.measure(&config, 7 << 28, &[0.0]);
-            assert!((3 << 28) - phasors.angle(&config) <= 64);
-        }
-        assert!(phasors.turning.units() < config.turning.turn && phasors.back == 0);
     }
 
     /// One block is a reading, and stays when the rotor turns back.

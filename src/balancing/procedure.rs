@@ -50,7 +50,6 @@ struct Installed<T: Scalar, const ROWS: usize, const PLANES: usize> {
     run: Option<Run<T, ROWS>>,
 }
 
-/// A trial run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Trial<T: Scalar, const ROWS: usize> {
     plane: usize,

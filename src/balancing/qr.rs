@@ -22,7 +22,6 @@ pub(crate) struct Qr<T: Scalar, const PLANES: usize> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PivotedQr<T: Scalar, const PLANES: usize> {
     qr: Qr<T, PLANES>,
-    /// The plane of each column.
     pub(crate) order: [usize; PLANES],
     /// Columns that are independent.
     pub(crate) rank: usize,

@@ -135,45 +135,28 @@ pub struct Reading {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "the text of a variant says what its fields are")]
 pub enum ReadingFault {
     /// The channel does not exist.
     NoChannel,
-    /// Not enough turns yet.
-    Incomplete {
-        /// Turns measured, times the order.
-        turns: u32,
-        /// Turns that are needed.
-        of: u32,
-    },
-    /// The rotor turns backwards, or reverses.
-    Backwards {
-        /// Times that its zero passed the wrong way.
-        times: u32,
-    },
+    /// Not enough turns yet: those that are measured, of those that are needed, times the order.
+    Incomplete { turns: u32, of: u32 },
+    /// The rotor turns backwards, or reverses; times that its zero passed the wrong way.
+    Backwards { times: u32 },
     /// Fewer than eight ticks on a turn.
     TooFast,
     /// The sensor was at the end of its range, or its value is not a number.
     Clipped,
-    /// Samples were missing, or not sound: a bus that failed, a sensor that stood still.
-    Missing {
-        /// Ticks without one.
-        samples: u32,
-    },
-    /// The speed moved.
-    SpeedMoved {
-        /// Difference of the fastest and slowest block, over the mean.
-        spread: f32,
-    },
-    /// The vibration moved along while the speed stood: a resonance is near, or the rotor is still getting warm.
-    Drifting {
-        /// Change over the reading, over the amplitude.
-        drift: f32,
-    },
-    /// The vibration fluctuates: noise, or a beat with another rotating part.
-    Scattered {
-        /// Standard deviation of the mean by the blocks' differences, over the amplitude.
-        scatter: f32,
-    },
+    /// Ticks without a sample, or with one that is not sound: a bus that failed, a sensor that stood still.
+    Missing { samples: u32 },
+    /// The speed moved; difference of the fastest and slowest block, over the mean.
+    SpeedMoved { spread: f32 },
+    /// The vibration moved along while the speed stood: a resonance is near, or the rotor is still getting warm. Its
+    /// change over the reading, over the amplitude.
+    Drifting { drift: f32 },
+    /// The vibration fluctuates: noise, or a beat with another rotating part. Standard deviation of the mean by the
+    /// blocks' differences, over the amplitude.
+    Scattered { scatter: f32 },
 }
 
 impl fmt::Display for ReadingFault {

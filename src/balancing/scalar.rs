@@ -43,7 +43,6 @@ impl Scalar for f64 {
 /// A vibration, a weight or an influence coefficient: amplitude and phase as a complex number.
 pub type Complex<T> = nalgebra::Complex<T>;
 
-/// A constant.
 pub(crate) fn real<T: Scalar>(value: f64) -> T {
     nalgebra::convert(value)
 }
@@ -66,7 +65,6 @@ pub(crate) fn square<T: Scalar>(z: Complex<T>) -> T {
     z.re * z.re + z.im * z.im
 }
 
-/// Zero.
 pub(crate) fn zero<T: Scalar>() -> Complex<T> {
     Complex { re: T::zero(), im: T::zero() }
 }

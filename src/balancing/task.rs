@@ -77,7 +77,6 @@ pub struct BalancingTask<M, H, K, const ROWS: usize = 2, const PLANES: usize = 1
     memory: K,
     in_run: InRun<f32, ROWS, PLANES>,
     phase: Phase<PLANES>,
-    /// A reading, or a wait, is to begin.
     begin: bool,
     /// Ticks at the last look, and calls since they changed.
     ticks: u32,

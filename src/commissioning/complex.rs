@@ -2,7 +2,6 @@
 
 use crate::math::sin_cos;
 
-/// A complex number.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Complex {
     pub re: f64,

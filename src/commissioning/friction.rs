@@ -5,7 +5,6 @@ use super::figure::Figure;
 use crate::design::Matrix;
 use crate::math::sqrt;
 
-/// Segments of the test.
 pub(crate) const SEGMENTS: usize = 8;
 
 /// Speeds at both ends of a segment, of the test's speed.
@@ -20,7 +19,6 @@ pub(crate) fn ends_of(segment: usize) -> (f32, f32) {
     if segment < 4 { (from, to) } else { (-from, -to) }
 }
 
-/// Means over a segment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct Segment {

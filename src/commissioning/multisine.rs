@@ -23,7 +23,6 @@ pub(crate) struct Line {
 }
 
 impl Line {
-    /// No line.
     pub(crate) const NONE: Self = Self {
         frequency: 0.0,
         turn: [1.0, 0.0],
@@ -56,7 +55,6 @@ pub(crate) struct Window {
 }
 
 impl Window {
-    /// No window.
     pub(crate) const NONE: Self = Self { turn: [1.0, 0.0], phasor: [1.0, 0.0] };
 
     /// A window over so many blocks.

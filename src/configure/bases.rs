@@ -76,18 +76,14 @@ impl Parts<'_> {
 
     /// The first bases that fit, from these on: the fewest doublings, of the torque alone if possible.
     const fn search(&self, held: Held, torque: f64, speed: f64) -> Option<Bases> {
-        let mut alone = 0;
-        while alone <= DOUBLINGS {
+        each!(alone, 0.., alone <= DOUBLINGS, {
             let bases = self.bases(torque * doubled(alone), speed, false);
             if self.fit(held, bases) {
                 return Some(bases);
             }
-            alone += 1;
-        }
-        let mut sum = 1;
-        while sum <= 2 * DOUBLINGS {
-            let mut speeds = sum.saturating_sub(DOUBLINGS);
-            while speeds <= sum && speeds <= DOUBLINGS {
+        });
+        each!(sum, 1.., sum <= 2 * DOUBLINGS, {
+            each!(speeds, (sum.saturating_sub(DOUBLINGS)).., speeds <= sum && speeds <= DOUBLINGS, {
                 let torques = sum - speeds;
                 let (torque, speed) = (torque * doubled(torques), speed * doubled(speeds));
                 let usual = self.bases(torque, speed, false);
@@ -99,15 +95,12 @@ impl Parts<'_> {
                 if torques >= 2 && self.fit(held, finer) {
                     return Some(finer);
                 }
-                speeds += 1;
-            }
-            sum += 1;
-        }
+            });
+        });
         None
     }
 }
 
-/// 2 to this power.
 const fn doubled(times: u32) -> f64 {
     (1_u32 << times) as f64
 }

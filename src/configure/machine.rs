@@ -234,7 +234,6 @@ pub trait Machine {
     const CYCLES: u32 = 16;
 }
 
-/// The fifth power.
 const fn fifth(x: f64) -> f64 {
     x * x * x * x * x
 }

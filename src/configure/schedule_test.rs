@@ -68,10 +68,8 @@ const fn half_way<M: Family<A, B>, const A: usize, const B: usize>(
 ) -> Spread {
     let own = quantity(&M::MEMBERS[first][second], stiffness);
     let mut spread = Spread::NONE;
-    let mut i = first.saturating_sub(1);
-    while i < A && i <= first + 1 {
-        let mut j = second.saturating_sub(1);
-        while j < B && j <= second + 1 {
+    each!(i, (first.saturating_sub(1)).., i < A && i <= first + 1, {
+        each!(j, (second.saturating_sub(1)).., j < B && j <= second + 1, {
             let ratio = sqrt(quantity(&M::MEMBERS[i][j], stiffness) / own);
             if ratio < spread.min {
                 spread.min = ratio;
@@ -79,10 +77,8 @@ const fn half_way<M: Family<A, B>, const A: usize, const B: usize>(
             if ratio > spread.max {
                 spread.max = ratio;
             }
-            j += 1;
-        }
-        i += 1;
-    }
+        });
+    });
     spread
 }
 

@@ -14,7 +14,7 @@
 //! lively gains follow noise. A load torque that wanders less leaves the innovations after the impact to twist and load
 //! speed.
 
-use super::tuning::{Disturbance, Encoder, Rate};
+use super::tuning::{Disturbance, Encoder, Rate, Variances};
 use super::{Error, ExactStep, Kalman, Matrix, TwoMassDesign};
 use crate::machine::TwoMass;
 use crate::math::sqrt;
@@ -100,33 +100,22 @@ impl TwoMass {
         if !(hold >= 0.0 && hold <= u32::MAX as f64) {
             return Err(Error::Hold);
         }
-        let (measurement, torque, load) =
-            match (encoder.variance(), disturbance.torque_variance(), disturbance.load_torque_variance(period)) {
-                (Ok(measurement), Ok(torque), Ok(load)) => (measurement, torque, load),
-                (Err(error), _, _) | (_, Err(error), _) | (_, _, Err(error)) => return Err(error),
-            };
-        let mut noise = Matrix::ZERO;
-        each!(i, 0..5, {
-            each!(j, 0..5, {
-                noise.0[i][j] = contact.input[i] * contact.input[j] * torque;
-            });
-        });
+        let Variances { angle, torque, load_torque, .. } = get!(Variances::of(rate, encoder, &disturbance));
+        let mut noise = Matrix::<5, 1>::square_of(&contact.input, torque);
         noise.0[2][2] += wandered;
         noise.0[3][3] += load_speed;
-        noise.0[4][4] += share * load;
+        noise.0[4][4] += share * load_torque;
         let seen = Matrix([[1.0, 0.0, 0.0, 0.0, 0.0]]);
-        match Kalman::<5, 1>::design(&contact.transition, &seen, &noise, &Matrix([[measurement]])) {
-            Ok(filter) => Ok(BacklashDesign {
-                contact,
-                free: ExactStep::from_rates(0.0, 0.0, period),
-                gap: self.gap,
-                searching: filter.gain.transpose().0[0],
-                searching_radius: filter.spectral_radius,
-                searching_twist: sqrt(filter.posterior.0[2][2]),
-                // To the nearest tick, and the tick of the impact at the least.
-                hold: if hold < 1.5 { 1 } else { (hold + 0.5) as u32 },
-            }),
-            Err(error) => Err(error),
-        }
+        let filter = get!(Kalman::<5, 1>::design(&contact.transition, &seen, &noise, &Matrix([[angle]])));
+        Ok(BacklashDesign {
+            contact,
+            free: ExactStep::from_rates(0.0, 0.0, period),
+            gap: self.gap,
+            searching: filter.gain.transpose().0[0],
+            searching_radius: filter.spectral_radius,
+            searching_twist: sqrt(filter.posterior.0[2][2]),
+            // To the nearest tick, and the tick of the impact at the least.
+            hold: if hold < 1.5 { 1 } else { (hold + 0.5) as u32 },
+        })
     }
 }

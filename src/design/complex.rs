@@ -1,6 +1,5 @@
 //! Complex numbers of a loop's response.
 
-/// A complex number: real and imaginary part.
 pub(super) type Complex = (f64, f64);
 
 pub(super) const fn times(a: Complex, b: Complex) -> Complex {

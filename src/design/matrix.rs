@@ -38,6 +38,18 @@ impl<const R: usize, const C: usize> Matrix<R, C> {
         sum
     }
 
+    /// A column times its transpose and a factor.
+    #[inline(always)]
+    pub(super) const fn square_of(column: &[f64; R], factor: f64) -> Matrix<R, R> {
+        let mut square = Matrix::ZERO;
+        each!(i, 0..R, {
+            each!(j, 0..R, {
+                square.0[i][j] = column[i] * column[j] * factor;
+            });
+        });
+        square
+    }
+
     /// Rows and columns exchanged.
     #[must_use]
     pub const fn transpose(&self) -> Matrix<C, R> {

@@ -118,12 +118,7 @@ impl TwoMass {
 
         let step = ExactStep::new(self, period);
         let (transition, input) = transition(self, &step, period);
-        let mut noise = Matrix::ZERO;
-        each!(i, 0..5, {
-            each!(j, 0..5, {
-                noise.0[i][j] = input[i] * input[j] * variances.torque;
-            });
-        });
+        let mut noise = Matrix::<5, 1>::square_of(&input, variances.torque);
         noise.0[4][4] += variances.load_torque;
         let seen = Matrix([[1.0, 0.0, 0.0, 0.0, 0.0]]);
         let filter = get!(Kalman::<5, 1>::design(&transition, &seen, &noise, &Matrix([[variances.angle]])));

@@ -12,7 +12,6 @@ const MODES: usize = crate::machine::CAPACITY - 1;
 /// zero. Its undamped poles, which no torque of the motor moves, would count as unstable.
 const NEGLIGIBLE: f64 = 1e-9;
 
-/// A vibration, its shape normalised to unit modal mass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Vibration {
@@ -61,16 +60,14 @@ impl Plant {
     pub const fn of_modes(inertia: f64, modes: &Modes) -> Self {
         let mut plant = Self::rigid(inertia);
         let modes = modes.resonances();
-        let mut k = 0;
-        while k < modes.len() && plant.count < MODES {
+        each!(k, 0.., k < modes.len() && plant.count < MODES, {
             let mode = &modes[k];
             if mode.residue * inertia > NEGLIGIBLE {
                 plant.vibration[plant.count] =
                     Vibration { square: mode.frequency * mode.frequency, damping: mode.damping, residue: mode.residue };
                 plant.count += 1;
             }
-            k += 1;
-        }
+        });
         plant
     }
 
@@ -84,15 +81,13 @@ impl Plant {
         let glide = period * period / self.inertia;
         let mut numerator = Polynomial::new([glide, 0.5 * glide]);
         let mut denominator = Polynomial::new([0.0, 0.0, 1.0]);
-        let mut k = 0;
-        while k < self.count && k < MODES {
+        each!(k, 0.., k < self.count && k < MODES, {
             let Vibration { square, damping, residue } = self.vibration[k];
             let twist = Twist::of(&ExactStep::from_rates(square, damping, period));
             let turned = denominator.times(&twist.numerator);
             numerator = numerator.times(&twist.denominator).plus(residue, &turned);
             denominator = denominator.times(&twist.denominator);
-            k += 1;
-        }
+        });
         (numerator, denominator)
     }
 }

@@ -6,7 +6,6 @@
 use super::Matrix;
 use crate::math::{hypot, sqrt};
 
-/// A complex number: real and imaginary part.
 type Complex = (f64, f64);
 
 const fn plus(a: Complex, b: Complex) -> Complex {
@@ -117,8 +116,7 @@ pub const fn spectral_radius(poles: &[Complex]) -> f64 {
 /// Hessenberg form by elimination with exchanges, as complex numbers.
 const fn hessenberg<const N: usize>(a: &Matrix<N, N>) -> [[Complex; N]; N] {
     let mut a = *a;
-    let mut column = 0;
-    while column + 2 < N {
+    each!(column, 0.., column + 2 < N, {
         let pivot = column + 1;
         let mut best = pivot;
         each!(i, (pivot + 1)..N, {
@@ -130,8 +128,7 @@ const fn hessenberg<const N: usize>(a: &Matrix<N, N>) -> [[Complex; N]; N] {
         each!(r, 0..N, {
             a.0[r].swap(pivot, best);
         });
-        let mut i = pivot + 1;
-        while i < N && a.0[pivot][column] != 0.0 {
+        each!(i, (pivot + 1).., i < N && a.0[pivot][column] != 0.0, {
             let factor = a.0[i][column] / a.0[pivot][column];
             each!(j, 0..N, {
                 a.0[i][j] -= factor * a.0[pivot][j];
@@ -139,10 +136,8 @@ const fn hessenberg<const N: usize>(a: &Matrix<N, N>) -> [[Complex; N]; N] {
             each!(r, 0..N, {
                 a.0[r][pivot] += factor * a.0[r][i];
             });
-            i += 1;
-        }
-        column += 1;
-    }
+        });
+    });
     let mut h = [[(0.0, 0.0); N]; N];
     each!(i, 0..N, {
         each!(j, 0..N, {
@@ -176,13 +171,10 @@ const fn wilkinson<const N: usize>(h: &[[Complex; N]; N], n: usize) -> Complex {
 /// One QR step with Givens rotations on the rows and columns `low..=n`.
 const fn qr_step<const N: usize>(h: &mut [[Complex; N]; N], low: usize, n: usize, shift: Complex) {
     let mut turns = [((1.0, 0.0), (0.0, 0.0)); N];
-    let mut i = low;
-    while i <= n && i < N {
+    each!(i, low.., i <= n && i < N, {
         h[i][i] = minus(h[i][i], shift);
-        i += 1;
-    }
-    let mut i = low;
-    while i < n && i + 1 < N {
+    });
+    each!(i, low.., i < n && i + 1 < N, {
         let (x, y) = (h[i][i], h[i + 1][i]);
         let length = hypot(size(x), size(y));
         if length > 0.0 {
@@ -190,30 +182,21 @@ const fn qr_step<const N: usize>(h: &mut [[Complex; N]; N], low: usize, n: usize
         }
         // Without the functions of complex numbers: a call costs the compiler, which interprets this, the most.
         let ((c, d), (s, t)) = turns[i];
-        let mut j = i;
-        while j <= n && j < N {
+        each!(j, i.., j <= n && j < N, {
             let ((p, q), (u, v)) = (h[i][j], h[i + 1][j]);
             h[i][j] = ((c * p + d * q) + (s * u + t * v), (c * q - d * p) + (s * v - t * u));
             h[i + 1][j] = ((c * u - d * v) - (s * p - t * q), (c * v + d * u) - (s * q + t * p));
-            j += 1;
-        }
-        i += 1;
-    }
-    let mut i = low;
-    while i < n && i + 1 < N {
+        });
+    });
+    each!(i, low.., i < n && i + 1 < N, {
         let ((c, d), (s, t)) = turns[i];
-        let mut r = low;
-        while r <= n && r <= i + 1 && r < N {
+        each!(r, low.., r <= n && r <= i + 1 && r < N, {
             let ((p, q), (u, v)) = (h[r][i], h[r][i + 1]);
             h[r][i] = ((p * c - q * d) + (u * s - v * t), (p * d + q * c) + (u * t + v * s));
             h[r][i + 1] = ((u * c + v * d) - (p * s + q * t), (v * c - u * d) - (q * s - p * t));
-            r += 1;
-        }
-        i += 1;
-    }
-    let mut i = low;
-    while i <= n && i < N {
+        });
+    });
+    each!(i, low.., i <= n && i < N, {
         h[i][i] = plus(h[i][i], shift);
-        i += 1;
-    }
+    });
 }

@@ -20,35 +20,27 @@ pub(super) struct Polynomial {
 }
 
 impl Polynomial {
-    /// 1.
     pub(super) const ONE: Self = Self::new([1.0]);
 
-    /// z.
     pub(super) const Z: Self = Self::new([1.0, 1.0]);
 
     pub(super) const fn new<const N: usize>(coefficients: [f64; N]) -> Self {
         let mut coefficient = [0.0; CAPACITY];
-        let mut k = 0;
-        while k < N && k < CAPACITY {
+        each!(k, 0.., k < N && k < CAPACITY, {
             coefficient[k] = coefficients[k];
-            k += 1;
-        }
+        });
         Self { coefficient, degree: N - 1 }
     }
 
     /// This times another. What would not fit is left out; the callers' degrees are bounded below that.
     pub(super) const fn times(&self, other: &Self) -> Self {
         let mut product = Self { coefficient: [0.0; CAPACITY], degree: self.degree + other.degree };
-        let mut i = 0;
-        while i <= self.degree && i < CAPACITY {
+        each!(i, 0.., i <= self.degree && i < CAPACITY, {
             let factor = self.coefficient[i];
-            let mut j = 0;
-            while factor != 0.0 && j <= other.degree && i + j < CAPACITY {
+            each!(j, 0.., factor != 0.0 && j <= other.degree && i + j < CAPACITY, {
                 product.coefficient[i + j] += factor * other.coefficient[j];
-                j += 1;
-            }
-            i += 1;
-        }
+            });
+        });
         product
     }
 
@@ -58,11 +50,9 @@ impl Polynomial {
         if other.degree > sum.degree {
             sum.degree = other.degree;
         }
-        let mut k = 0;
-        while k <= other.degree && k < CAPACITY {
+        each!(k, 0.., k <= other.degree && k < CAPACITY, {
             sum.coefficient[k] += factor * other.coefficient[k];
-            k += 1;
-        }
+        });
         sum
     }
 
@@ -73,11 +63,9 @@ impl Polynomial {
     /// Times delta, so many times over.
     pub(super) const fn raised(&self, times: usize) -> Self {
         let mut raised = Self { coefficient: [0.0; CAPACITY], degree: self.degree + times };
-        let mut k = 0;
-        while k <= self.degree && k + times < CAPACITY {
+        each!(k, 0.., k <= self.degree && k + times < CAPACITY, {
             raised.coefficient[k + times] = self.coefficient[k];
-            k += 1;
-        }
+        });
         raised
     }
 
@@ -96,11 +84,9 @@ impl Polynomial {
     /// The first coefficients.
     pub(super) const fn first<const N: usize>(&self) -> [f64; N] {
         let mut first = [0.0; N];
-        let mut k = 0;
-        while k < N && k < CAPACITY {
+        each!(k, 0.., k < N && k < CAPACITY, {
             first[k] = self.coefficient[k];
-            k += 1;
-        }
+        });
         first
     }
 

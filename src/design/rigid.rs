@@ -60,34 +60,28 @@ impl Rigid {
         let t = variances.period;
         let (jump, glide) = (t / self.inertia, 0.5 * t * t / self.inertia);
         let transition = Matrix([[1.0, t, -glide], [0.0, 1.0, -jump], [0.0, 0.0, 1.0]]);
-        let noise = Matrix([
-            [glide * glide * variances.torque, glide * jump * variances.torque, 0.0],
-            [glide * jump * variances.torque, jump * jump * variances.torque, 0.0],
-            [0.0, 0.0, variances.load_torque],
-        ]);
+        let input = [glide, jump, 0.0];
+        let mut noise = Matrix::<3, 1>::square_of(&input, variances.torque);
+        noise.0[2][2] = variances.load_torque;
         let seen = Matrix([[1.0, 0.0, 0.0]]);
-        match Kalman::<3, 1>::design(&transition, &seen, &noise, &Matrix([[variances.angle]])) {
-            Ok(filter) => {
-                let p = &filter.posterior.0;
-                let standard_deviation = [sqrt(p[0][0]), sqrt(p[1][1]), sqrt(p[2][2])];
-                let innovation = sqrt(filter.innovation.0[0][0]);
-                // A NaN makes the sum one.
-                if !(standard_deviation[0] + standard_deviation[1] + standard_deviation[2] + innovation).is_finite() {
-                    return Err(Error::NotConverged);
-                }
-                Ok(RigidDesign {
-                    period: t,
-                    machine: *self,
-                    transition,
-                    input: [glide, jump, 0.0],
-                    gains: filter.gain.transpose().0[0],
-                    poles: filter.poles,
-                    spectral_radius: filter.spectral_radius,
-                    standard_deviation,
-                    innovation,
-                })
-            }
-            Err(error) => Err(error),
+        let filter = get!(Kalman::<3, 1>::design(&transition, &seen, &noise, &Matrix([[variances.angle]])));
+        let p = &filter.posterior.0;
+        let standard_deviation = [sqrt(p[0][0]), sqrt(p[1][1]), sqrt(p[2][2])];
+        let innovation = sqrt(filter.innovation.0[0][0]);
+        // A NaN makes the sum one.
+        if !(standard_deviation[0] + standard_deviation[1] + standard_deviation[2] + innovation).is_finite() {
+            return Err(Error::NotConverged);
         }
+        Ok(RigidDesign {
+            period: t,
+            machine: *self,
+            transition,
+            input,
+            gains: filter.gain.transpose().0[0],
+            poles: filter.poles,
+            spectral_radius: filter.spectral_radius,
+            standard_deviation,
+            innovation,
+        })
     }
 }

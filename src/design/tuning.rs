@@ -120,10 +120,8 @@ impl Encoder {
         if !(interpolation >= 0.0 && eccentricity >= 0.0 && self.jitter >= 0.0 && accuracy.is_finite()) {
             return Err(Error::EncoderAccuracy);
         }
-        match self.resolution() {
-            Ok(angle) => Ok(angle * angle / 12.0 + accuracy),
-            Err(error) => Err(error),
-        }
+        let angle = get!(self.resolution());
+        Ok(angle * angle / 12.0 + accuracy)
     }
 }
 
@@ -197,9 +195,8 @@ pub(super) struct Variances {
 impl Variances {
     pub(super) const fn of(rate: Rate, encoder: Encoder, disturbance: &Disturbance) -> Result<Self, Error> {
         let period = get!(rate.period());
-        match (encoder.variance(), disturbance.torque_variance(), disturbance.load_torque_variance(period)) {
-            (Ok(angle), Ok(torque), Ok(load_torque)) => Ok(Variances { period, angle, torque, load_torque }),
-            (Err(error), _, _) | (_, Err(error), _) | (_, _, Err(error)) => Err(error),
-        }
+        let angle = get!(encoder.variance());
+        let torque = get!(disturbance.torque_variance());
+        Ok(Variances { period, angle, torque, load_torque: get!(disturbance.load_torque_variance(period)) })
     }
 }

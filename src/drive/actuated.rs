@@ -1,7 +1,6 @@
 //! A drive whose torque comes from an actuator: a fuel rack, a steam valve.
 
-use super::composition::handed_on;
-use super::{Composition, ConfigOf, GovernorConfigOf, ObserverConfigOf, VibrationOf};
+use super::{Composition, ConfigOf, GovernorConfigOf, ObserverConfigOf, VibrationOf, handed_on, own};
 use crate::configure::{Configure, GainSource, HasActuator, Machine, Refusal};
 use crate::design::Actuator;
 use crate::fault::Faults;
@@ -188,14 +187,10 @@ impl<D: Composition<Governor: HasRunSequence>, const LAGS: usize, const RING: us
 
     handed_on!(mut);
 
-    #[inline(always)]
-    fn new(config: &Self::Config, angle: u32) -> Self {
-        Actuated::new(config, angle)
-    }
-
-    #[inline(always)]
-    fn tick(&mut self, config: &Self::Config, sample: &Sample<D::Number>) -> Command<D::Number> {
-        Actuated::tick(self, config, sample)
+    own! { Actuated:
+        fn new(config: &Self::Config, angle: u32) -> Self;
+        fn tick(&mut self, config: &Self::Config, sample: &Sample<D::Number>) -> Command<D::Number>;
+        fn estimate(&self, config: &Self::Config) -> Estimate<D::Number>;
     }
 
     fn tick_after(&mut self, config: &Self::Config, sample: &Sample<D::Number>, missed: u32) -> Command<D::Number> {
@@ -238,10 +233,5 @@ impl<D: Composition<Governor: HasRunSequence>, const LAGS: usize, const RING: us
 
     fn vibration(&mut self, config: &Self::Config, vibration: &VibrationOf<Self>) {
         self.drive.vibration(&config.drive, vibration);
-    }
-
-    #[inline(always)]
-    fn estimate(&self, config: &Self::Config) -> Estimate<D::Number> {
-        Actuated::estimate(self, config)
     }
 }

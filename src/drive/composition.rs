@@ -111,7 +111,34 @@ macro_rules! handed_on {
         }
     };
 }
-pub(crate) use handed_on;
+
+/// Methods of the trait that are those of the type itself.
+macro_rules! own {
+    ($own:ident:) => {};
+    ($own:ident: fn $name:ident(&mut $this:ident $(, $given:ident: $type:ty)*) $(-> $out:ty)?; $($rest:tt)*) => {
+        #[inline(always)]
+        fn $name(&mut $this $(, $given: $type)*) $(-> $out)? {
+            $own::$name($this $(, $given)*)
+        }
+        own! { $own: $($rest)* }
+    };
+    ($own:ident: fn $name:ident(&$this:ident $(, $given:ident: $type:ty)*) $(-> $out:ty)?; $($rest:tt)*) => {
+        #[inline(always)]
+        fn $name(&$this $(, $given: $type)*) $(-> $out)? {
+            $own::$name($this $(, $given)*)
+        }
+        own! { $own: $($rest)* }
+    };
+    ($own:ident: fn $name:ident($($given:ident: $type:ty),*) -> $out:ty; $($rest:tt)*) => {
+        #[inline(always)]
+        fn $name($($given: $type),*) -> $out {
+            $own::$name($($given),*)
+        }
+        own! { $own: $($rest)* }
+    };
+}
+
+pub(crate) use {handed_on, own};
 
 /// The constants of a drive, from its type.
 pub type ConfigOf<D> = <D as Composition>::Config;
@@ -146,93 +173,31 @@ where
     type Fluctuation = StateOf<F, N>;
     type Balancer = StateOf<B, N>;
 
-    #[inline(always)]
-    fn new(config: &Self::Config, angle: u32) -> Self {
-        Drive::new(config, angle)
-    }
-
-    #[inline(always)]
-    fn tick(&mut self, config: &Self::Config, sample: &Sample<N>) -> Command<N> {
-        Drive::tick(self, config, sample)
-    }
-
-    #[inline(always)]
-    fn tick_after(&mut self, config: &Self::Config, sample: &Sample<N>, missed: u32) -> Command<N> {
-        Drive::tick_after(self, config, sample, missed)
-    }
-
-    #[inline(always)]
-    fn make_up(&mut self, config: &Self::Config, torque: N, missed: u32) -> Faults {
-        Drive::make_up(self, config, torque, missed)
-    }
-
-    #[inline(always)]
-    fn coast(&mut self, config: &Self::Config, torque: N, setpoint: N) -> Command<N> {
-        Drive::coast(self, config, torque, setpoint)
-    }
-
-    #[inline(always)]
-    fn hold(&mut self, config: &Self::Config, angle: u32, torque: N) -> Command<N> {
-        Drive::hold(self, config, angle, torque)
-    }
-
-    #[inline(always)]
-    fn engage(&mut self, config: &Self::Config) {
-        Drive::engage(self, config);
-    }
-
-    #[inline(always)]
-    fn switch(&mut self, from: &Self::Config, to: &Self::Config) {
-        Drive::switch(self, from, to);
+    own! { Drive:
+        fn new(config: &Self::Config, angle: u32) -> Self;
+        fn tick(&mut self, config: &Self::Config, sample: &Sample<N>) -> Command<N>;
+        fn tick_after(&mut self, config: &Self::Config, sample: &Sample<N>, missed: u32) -> Command<N>;
+        fn make_up(&mut self, config: &Self::Config, torque: N, missed: u32) -> Faults;
+        fn coast(&mut self, config: &Self::Config, torque: N, setpoint: N) -> Command<N>;
+        fn hold(&mut self, config: &Self::Config, angle: u32, torque: N) -> Command<N>;
+        fn engage(&mut self, config: &Self::Config);
+        fn switch(&mut self, from: &Self::Config, to: &Self::Config);
+        fn observer(&self) -> &Self::Observer;
+        fn observer_mut(&mut self) -> &mut Self::Observer;
+        fn governor(&self) -> &Self::Governor;
+        fn governor_mut(&mut self) -> &mut Self::Governor;
+        fn vibration(&mut self, config: &Self::Config, vibration: &VibrationOf<Self>);
+        fn vibration_missing(&mut self, faults: Faults);
+        fn estimate(&self, config: &Self::Config) -> Estimate<N>;
+        fn angle(&self) -> u32;
+        fn is_lost(&self) -> bool;
     }
 
     fn parts(config: &mut Self::Config) -> (&mut ObserverConfigOf<Self>, &mut GovernorConfigOf<Self>) {
         (&mut config.observer, &mut config.governor)
     }
 
-    fn observer(&self) -> &Self::Observer {
-        Drive::observer(self)
-    }
-
-    fn observer_mut(&mut self) -> &mut Self::Observer {
-        Drive::observer_mut(self)
-    }
-
-    fn governor(&self) -> &Self::Governor {
-        Drive::governor(self)
-    }
-
-    #[inline(always)]
-    fn governor_mut(&mut self) -> &mut Self::Governor {
-        Drive::governor_mut(self)
-    }
-
     fn commanded(&self) -> N {
         self.commanded
-    }
-
-    #[inline(always)]
-    fn vibration(&mut self, config: &Self::Config, vibration: &VibrationOf<Self>) {
-        Drive::vibration(self, config, vibration);
-    }
-
-    #[inline(always)]
-    fn vibration_missing(&mut self, faults: Faults) {
-        Drive::vibration_missing(self, faults);
-    }
-
-    #[inline(always)]
-    fn estimate(&self, config: &Self::Config) -> Estimate<N> {
-        Drive::estimate(self, config)
-    }
-
-    #[inline(always)]
-    fn angle(&self) -> u32 {
-        Drive::angle(self)
-    }
-
-    #[inline(always)]
-    fn is_lost(&self) -> bool {
-        Drive::is_lost(self)
     }
 }

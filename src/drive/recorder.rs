@@ -26,7 +26,6 @@ enum Kind {
     Engage,
 }
 
-/// A tick's input.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Entry<N> {

@@ -4,7 +4,6 @@ use super::class::COUNT;
 use super::counts::LONGEST;
 use super::{Classed, Counts, TorqueClasses};
 use crate::fluctuation::Fluctuation;
-use crate::number::Part;
 use crate::sample::Estimate;
 
 /// Ranges in front of the residue, of which none closes a cycle: each is smaller than the next.
@@ -39,10 +38,6 @@ pub struct Rainflow<const CLASSES: usize, N = f32> {
     cycles: [u32; CLASSES],
     /// Ticks in each class.
     ticks: [u32; CLASSES],
-}
-
-impl<N, const CLASSES: usize> Part<N> for Rainflow<CLASSES> {
-    type State = Rainflow<CLASSES, N>;
 }
 
 impl<N: Classed, const CLASSES: usize> Default for Rainflow<CLASSES, N> {

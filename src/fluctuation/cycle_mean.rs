@@ -19,7 +19,7 @@
 
 use super::position::{Crossing, Position};
 use super::{CycleConfig, Fluctuation};
-use crate::number::{Number, Part};
+use crate::number::Number;
 use crate::sample::Estimate;
 
 /// Ticks that a cycle may last: 419 s at 10 kHz.
@@ -68,10 +68,6 @@ pub struct CycleMean<const SEGMENTS: usize, N = f32> {
     renewed: u32,
     stands: u32,
     mean: N,
-}
-
-impl<N, const SEGMENTS: usize> Part<N> for CycleMean<SEGMENTS> {
-    type State = CycleMean<SEGMENTS, N>;
 }
 
 impl<N: Number, const SEGMENTS: usize> Default for CycleMean<SEGMENTS, N> {

@@ -22,7 +22,6 @@ pub use reading::{Extreme, Fluctuations, Reading, SpeedErrors};
 
 use super::position::{Position, RADIANS, Way};
 use super::{CycleConfig, Edge, Fluctuation};
-use crate::number::Part;
 use crate::sample::Estimate;
 use peak::{Peak, SEGMENTS, Speed, place};
 
@@ -92,10 +91,6 @@ pub struct Extremes<N: Ranked = f32> {
     good: u32,
     finished: [Finished<N::Rank>; 2],
     cycles: u32,
-}
-
-impl<N: Ranked> Part<N> for Extremes {
-    type State = Extremes<N>;
 }
 
 impl<N: Ranked> Fluctuation<N> for Extremes<N> {

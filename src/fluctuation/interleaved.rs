@@ -5,7 +5,6 @@
 //! and a turn of a longer one, must have 160 ticks.
 
 use super::{Extremes, Fluctuation, Ranked, Summed, Waveform, WaveformConfig};
-use crate::number::Part;
 use crate::sample::Estimate;
 
 /// [`Waveform`] and [`Extremes`] of the same cycle, at less than the cost of the pair.
@@ -14,10 +13,6 @@ use crate::sample::Estimate;
 pub struct Interleaved<const BINS: usize, N: Summed + Ranked = f32> {
     waveform: Waveform<BINS, N>,
     extremes: Extremes<N>,
-}
-
-impl<N: Summed + Ranked, const BINS: usize> Part<N> for Interleaved<BINS> {
-    type State = Interleaved<BINS, N>;
 }
 
 impl<N: Summed + Ranked, const BINS: usize> Fluctuation<N> for Interleaved<BINS, N> {

@@ -171,13 +171,11 @@ impl Series {
 /// Points of a grid over the cycle: eight to the highest order's period.
 pub(super) const GRID: usize = 8 * MAX_ORDER;
 
-/// Values at evenly spaced angles.
 pub(super) type Grid = [f64; GRID];
 
 /// Cosine and sine at evenly spaced angles.
 pub(super) type Circle = [(f64, f64); GRID];
 
-/// The circle of the grid.
 pub(super) fn circle() -> Circle {
     let mut points = [(1.0, 0.0); GRID];
     for (index, point) in (0_u32..).zip(&mut points) {

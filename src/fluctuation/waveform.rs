@@ -12,7 +12,6 @@
 
 use super::position::{Position, Way};
 use super::{Bin, Edge, Fluctuation, Summed, WaveformConfig, Window};
-use crate::number::Part;
 use crate::sample::Estimate;
 
 /// Ticks that a window may last, so that no bin's sum of the distances overflows: 419 s at 10 kHz.
@@ -92,10 +91,6 @@ pub struct Waveform<const BINS: usize, N: Summed = f32> {
     /// The window's first end of a cycle and the second; the last of an even and of an odd number.
     edges: [Edge<N>; 4],
     bins: [Bin<N>; BINS],
-}
-
-impl<N: Summed, const BINS: usize> Part<N> for Waveform<BINS> {
-    type State = Waveform<BINS, N>;
 }
 
 impl<N: Summed, const BINS: usize> Default for Waveform<BINS, N> {

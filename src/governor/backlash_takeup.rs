@@ -22,7 +22,7 @@
 //! meets the flank under its largest torque.
 
 use super::Limit;
-use crate::number::{Number, Part};
+use crate::number::Number;
 use crate::sample::Estimate;
 
 /// Constants of [`BacklashTakeUp`].
@@ -53,10 +53,6 @@ pub struct BacklashTakeUpConfig<N: Number, L> {
 pub struct BacklashTakeUp<L, N = f32> {
     reach: N,
     limit: L,
-}
-
-impl<N, L: Part<N>> Part<N> for BacklashTakeUp<L> {
-    type State = BacklashTakeUp<L::State, N>;
 }
 
 impl<N: Number, L: Limit<N>> Limit<N> for BacklashTakeUp<L, N> {

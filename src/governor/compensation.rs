@@ -1,6 +1,6 @@
 //! Compensation torque: feed-forward of the load and of a mechanism, active damping, acceleration feedback.
 
-use crate::number::{Number, Part};
+use crate::number::Number;
 use crate::sample::Estimate;
 
 /// Compensation torque added to the loop's; `()` adds none, a tuple adds one after the other.
@@ -60,10 +60,6 @@ impl<N: Number, A: Compensation<N>, B: Compensation<N>> Compensation<N> for (A, 
 #[doc(alias = "feedforward")]
 pub struct FeedForward;
 
-impl<N> Part<N> for FeedForward {
-    type State = Self;
-}
-
 /// Constants of [`FeedForward`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -92,10 +88,6 @@ pub struct MechanismFeedForward<N = f32> {
     known_torque: N,
 }
 
-impl<N> Part<N> for MechanismFeedForward {
-    type State = MechanismFeedForward<N>;
-}
-
 impl<N: Number> Compensation<N> for MechanismFeedForward<N> {
     type Config = ();
 
@@ -114,10 +106,6 @@ impl<N: Number> Compensation<N> for MechanismFeedForward<N> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ActiveDamping;
-
-impl<N> Part<N> for ActiveDamping {
-    type State = Self;
-}
 
 /// Constants of [`ActiveDamping`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -146,10 +134,6 @@ impl<N: Number> Compensation<N> for ActiveDamping {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct AccelerationFeedback;
-
-impl<N> Part<N> for AccelerationFeedback {
-    type State = Self;
-}
 
 /// Constants of [`AccelerationFeedback`].
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Input shaping of the setpoint: a swinging load is at rest when the drive is.
 
 use crate::governor::Governor;
-use crate::number::{Number, Part};
+use crate::number::Number;
 use crate::sample::Estimate;
 
 /// A governor whose setpoint is given in `PARTS`, each a ramp half a period of the load's swing after the one before:
@@ -31,10 +31,6 @@ pub struct InputShaper<G, const SLOTS: usize, const PARTS: usize = 3, N = f32> {
     governor: G,
     targets: [N; PARTS],
     ramped: [N; PARTS],
-}
-
-impl<N, G: Part<N>, const SLOTS: usize, const PARTS: usize> Part<N> for InputShaper<G, SLOTS, PARTS> {
-    type State = InputShaper<G::State, SLOTS, PARTS, N>;
 }
 
 /// Constants of [`InputShaper`].

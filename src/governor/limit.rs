@@ -1,6 +1,6 @@
 //! Limits of the torque: constant, by the prime mover's curve, and by slew.
 
-use crate::number::{Number, Part};
+use crate::number::Number;
 use crate::sample::Estimate;
 
 /// A limit of the torque.
@@ -37,10 +37,6 @@ pub trait Limit<N: Number>: Default {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SymmetricLimit;
 
-impl<N> Part<N> for SymmetricLimit {
-    type State = Self;
-}
-
 /// Constants of [`SymmetricLimit`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -67,10 +63,6 @@ impl<N: Number> Limit<N> for SymmetricLimit {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TorqueRange;
-
-impl<N> Part<N> for TorqueRange {
-    type State = Self;
-}
 
 /// Constants of [`TorqueRange`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,10 +110,6 @@ impl<N: Number> Limit<N> for TorqueRange {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Curve<const K: usize>;
-
-impl<N, const K: usize> Part<N> for Curve<K> {
-    type State = Self;
-}
 
 /// A straight piece of a [`Curve`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -180,10 +168,6 @@ impl<N: Number, const K: usize> Limit<N> for Curve<K> {
 pub struct Slew<L, N = f32> {
     last: N,
     limit: L,
-}
-
-impl<N, L: Part<N>> Part<N> for Slew<L> {
-    type State = Slew<L::State, N>;
 }
 
 /// Constants of [`Slew`].

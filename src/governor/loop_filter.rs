@@ -1,6 +1,6 @@
 //! Filters in the speed loop: lag of the setpoint, of the speed, of the active damping.
 
-use crate::number::{Number, Part};
+use crate::number::Number;
 
 /// Filters in a [`SpeedLoop`](super::SpeedLoop); `()` is none, a tuple is one after the other.
 ///
@@ -119,10 +119,6 @@ pub struct SetpointLag<N = f32> {
     behind: N,
 }
 
-impl<N> Part<N> for SetpointLag {
-    type State = SetpointLag<N>;
-}
-
 impl<N: Number> LoopFilter<N> for SetpointLag<N> {
     type Config = ();
 
@@ -147,10 +143,6 @@ impl<N: Number> LoopFilter<N> for SetpointLag<N> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct DampingLag<N = f32> {
     twist_rate: N,
-}
-
-impl<N> Part<N> for DampingLag {
-    type State = DampingLag<N>;
 }
 
 /// Constants of [`DampingLag`] and [`SpeedLag`].
@@ -188,10 +180,6 @@ impl<N: Number> LoopFilter<N> for DampingLag<N> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpeedLag<N = f32> {
     speed: N,
-}
-
-impl<N> Part<N> for SpeedLag {
-    type State = SpeedLag<N>;
 }
 
 impl<N: Number> LoopFilter<N> for SpeedLag<N> {

@@ -12,7 +12,7 @@
 //! Stopped and tripped machines have no torque. A trip keeps its first cause until it is reset.
 
 use super::SpeedRange;
-use crate::number::{Number, Part};
+use crate::number::Number;
 use crate::sample::Estimate;
 
 /// Action of a governor in a tick.
@@ -175,10 +175,6 @@ pub struct Sequencer {
     fresh: bool,
     outside: u32,
     elapsed: u32,
-}
-
-impl<N> Part<N> for Sequencer {
-    type State = Self;
 }
 
 impl Sequencer {

@@ -1,6 +1,6 @@
 //! Shaping of the setpoint: droop and barred speed ranges.
 
-use crate::number::{Number, Part};
+use crate::number::Number;
 
 /// Shaping of the setpoint; `()` is none, a tuple is one after the other.
 pub trait SetpointShape<N: Number>: Default {
@@ -49,10 +49,6 @@ impl<N: Number, A: SetpointShape<N>, B: SetpointShape<N>> SetpointShape<N> for (
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Droop;
 
-impl<N> Part<N> for Droop {
-    type State = Self;
-}
-
 /// Constants of [`Droop`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -75,10 +71,6 @@ impl<N: Number> SetpointShape<N> for Droop {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Barred<const K: usize>;
-
-impl<N, const K: usize> Part<N> for Barred<K> {
-    type State = Self;
-}
 
 /// A range of speeds.
 #[derive(Clone, Copy, Debug, PartialEq)]

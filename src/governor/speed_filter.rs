@@ -5,7 +5,7 @@
 //! interval at rated speed contains none of the firing orders. For a varying speed or a long cycle the ripple follows
 //! the angle: [`CycleAverage`] takes the speed without its ripple from the drive's measurement of the fluctuation.
 
-use crate::number::{Number, Part};
+use crate::number::Number;
 use crate::sample::Estimate;
 
 /// A filter of the speed; `()` passes the estimates unchanged.
@@ -55,10 +55,6 @@ pub struct MovingAverage<const K: usize, N = f32> {
     /// do not accumulate.
     fresh: [N; 2],
     at: u32,
-}
-
-impl<N, const K: usize> Part<N> for MovingAverage<K> {
-    type State = MovingAverage<K, N>;
 }
 
 /// Constants of [`MovingAverage`].
@@ -121,10 +117,6 @@ impl<N: Number, const K: usize> SpeedFilter<N> for MovingAverage<K, N> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CycleAverage<N = f32> {
     steady_speed: Option<N>,
-}
-
-impl<N> Part<N> for CycleAverage {
-    type State = CycleAverage<N>;
 }
 
 impl<N: Number> SpeedFilter<N> for CycleAverage<N> {

@@ -11,7 +11,7 @@
 //! step a tick. Filters of the ramped setpoint, of the speed and of the twist rate are optional: [`LoopFilter`].
 
 use super::{Governor, LoopFilter};
-use crate::number::{Number, Part};
+use crate::number::Number;
 use crate::sample::Estimate;
 
 /// Constants of [`SpeedLoop`].
@@ -52,10 +52,6 @@ pub struct SpeedLoop<F = (), N = f32> {
     ramped: N,
     setpoint: N,
     filter: F,
-}
-
-impl<N, F: Part<N>> Part<N> for SpeedLoop<F> {
-    type State = SpeedLoop<F::State, N>;
 }
 
 impl<N: Copy, F> SpeedLoop<F, N> {

@@ -27,7 +27,7 @@ mod stop;
 
 use super::Governor;
 use crate::fault::Faults;
-use crate::number::{Number, Part};
+use crate::number::Number;
 use crate::sample::Estimate;
 
 /// Limits of [`Supervised`].
@@ -121,14 +121,9 @@ pub struct Supervised<G, N = f32> {
     started: N,
     sudden: u32,
     outside: u32,
-    /// Ticks of the stop.
     elapsed: u32,
     /// Turn behind the closed brake; `None` before the first tick of a hold.
     slipped: Option<N>,
-}
-
-impl<N, G: Part<N>> Part<N> for Supervised<G> {
-    type State = Supervised<G::State, N>;
 }
 
 impl<G, N: Number> Supervised<G, N> {
@@ -182,7 +177,6 @@ impl<G, N: Number> Supervised<G, N> {
     }
 }
 
-/// The causes of a stop.
 const CAUSES: Faults = Faults::from_bits(Faults::SUPERVISION.bits() & !Faults::BRAKE_SLIP.bits());
 
 impl<N: Number, G: Governor<N>> Supervised<G, N> {

@@ -19,7 +19,7 @@ use super::Finding;
 use crate::angle::Synchronous;
 use crate::design::{PlacedObserver, TwoMassDesign};
 use crate::math::{atan2, hypot, sin_cos};
-use crate::number::{Fixed, Part};
+use crate::number::Fixed;
 use crate::observer::{Observer, Prediction};
 use crate::sample::Estimate;
 
@@ -50,7 +50,6 @@ pub struct EccentricityConfig {
     twist: [f64; 2],
     /// Poles of the observer, each less one.
     poles: [Complex; 5],
-    /// Ticks in a block.
     block: u32,
     /// Largest amplitude (2^-32 turn).
     bound: f64,
@@ -152,21 +151,14 @@ pub struct EccentricityObserver<O, N: Correction = f32> {
     learner: Learner,
 }
 
-impl<N: Correction, O: Part<N>> Part<N> for EccentricityObserver<O> {
-    type State = EccentricityObserver<O::State, N>;
-}
-
-/// State between the ticks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Learner {
     /// Speed at the beginning of the block.
     speed: f32,
-    /// The last block's finding.
     unconfirmed: Option<Complex>,
 }
 
-/// The direction of a measured angle.
 #[inline(always)]
 fn direction<N: Correction>(measured: u32) -> [N::Part; 2] {
     N::direction(measured >> 6)

@@ -15,7 +15,7 @@
 //! agrees with it.
 
 use super::Finding;
-use super::steady::{Pairs, Steady, Window};
+use super::steady::{Pairs, Steady, Window, check, frictions};
 
 /// Constants of [`GearLoss`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,25 +42,15 @@ impl GearLossConfig {
     /// At compile time in a constant, for an interval that leaves fewer than ten updates in a window. Also for a rating
     /// that is not positive and for efficiencies that do not rise within 0 to 1.
     pub const fn new(torque: f64, speed: f64, efficiency: [f64; 2], every: f64) -> Self {
-        assert!(every > 0.0 && every <= 0.05, "the gear's loss needs an update every 50 ms or more often");
-        assert!(torque > 0.0 && speed > 0.0, "the rated torque and speed must be above zero");
-        let [least, most] = efficiency;
-        assert!(
-            least > 0.0 && most > least && most <= 1.0,
-            "the gear's efficiency must lie between two rising values above 0 and at most 1"
-        );
+        check(torque, speed, every);
         GearLossConfig {
             window: (0.5 / every) as u32,
             pause: (10.0 / every) as u32,
             least_speed: (0.25 * speed) as f32,
             least_torque: (0.2 * torque) as f32,
-            range: [friction(most) as f32, friction(least) as f32],
+            range: frictions(efficiency),
         }
     }
-}
-
-const fn friction(efficiency: f64) -> f64 {
-    (1.0 - efficiency * efficiency) / (1.0 + efficiency * efficiency)
 }
 
 /// Difference of the torques of a window's halves, as a fraction: a noise of 1 % of rated is below 0.5 % in the mean of

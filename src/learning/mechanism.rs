@@ -43,7 +43,6 @@ impl<const P: usize> Default for MechanismFit<P> {
 impl<const P: usize> MechanismFit<P> {
     /// Orders of inertia and torque.
     const ORDERS: usize = (P - 3) / 4;
-    /// Coefficients of a series.
     const SERIES: usize = 2 * Self::ORDERS + 1;
 
     /// Takes a segment: its two ends, and the work of the motor at the crank's shaft (J) between them. The speed

@@ -17,7 +17,7 @@
 //! other smaller.
 
 use super::Finding;
-use super::steady::{Steady, Window};
+use super::steady::{Steady, Window, check};
 
 /// Drift within a window, of rated torque.
 const STEADY_TORQUE: f32 = 0.01;
@@ -57,8 +57,7 @@ impl RunUpConfig {
     /// At compile time in a constant, for an interval that leaves fewer than ten updates in a window. Also for a rating
     /// that is not positive and for inertias that do not rise from above zero.
     pub const fn new(torque: f64, speed: f64, range: [f64; 2], every: f64) -> Self {
-        assert!(every > 0.0 && every <= 0.05, "a run-up needs an update every 50 ms or more often");
-        assert!(torque > 0.0 && speed > 0.0, "the rated torque and speed must be above zero");
+        check(torque, speed, every);
         assert!(
             range[0] > 0.0 && range[1] > range[0] && range[1].is_finite(),
             "the inertia must lie between two rising finite values above 0 kg m2"

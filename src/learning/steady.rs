@@ -5,6 +5,21 @@ const STEADY_SPEED: f32 = 0.01;
 /// Difference of the speeds of a pair, as a fraction.
 const SAME_SPEED: f32 = 0.2;
 
+/// Stops a constant whose interval of updates (s) or rating is out of range.
+pub(super) const fn check(torque: f64, speed: f64, every: f64) {
+    assert!(every > 0.0 && every <= 0.05, "a learner needs an update every 50 ms or more often");
+    assert!(torque > 0.0 && speed > 0.0, "the rated torque and speed must be above zero");
+}
+
+/// Frictions per torque of a gear, (1/eta - eta)/(1/eta + eta), at the ends of a range of its efficiency.
+pub(super) const fn frictions([least, most]: [f64; 2]) -> [f32; 2] {
+    assert!(
+        least > 0.0 && most > least && most <= 1.0,
+        "the gear's efficiency must lie between two rising values above 0 and at most 1"
+    );
+    [((1.0 - most * most) / (1.0 + most * most)) as f32, ((1.0 - least * least) / (1.0 + least * least)) as f32]
+}
+
 /// A window that has passed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -31,7 +46,6 @@ pub(super) struct Window {
     speed: f32,
     /// At the beginning.
     first: f32,
-    /// Of the two halves.
     sums: [f32; 2],
 }
 
@@ -74,7 +88,6 @@ impl Window {
     }
 }
 
-/// Pairs of windows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Pairs {

@@ -17,7 +17,7 @@
 //! or a load that drifts by less than 4 % of rated a second, cannot be told from a torque constant.
 
 use super::Finding;
-use super::steady::{Pairs, Steady, Window};
+use super::steady::{Pairs, Steady, Window, check, frictions};
 use crate::number::{Magnitude, Number};
 
 /// Largest departure of the gain from 1.
@@ -58,22 +58,14 @@ impl TorqueConstantConfig {
     /// At compile time in a constant, for an interval that leaves fewer than ten updates in a window. Also for a rating
     /// that is not positive and for efficiencies that do not rise within 0 to 1.
     pub const fn new(torque: f64, speed: f64, efficiency: [f64; 2], every: f64) -> Self {
-        assert!(every > 0.0 && every <= 0.05, "the torque constant needs an update every 50 ms or more often");
-        assert!(torque > 0.0 && speed > 0.0, "the rated torque and speed must be above zero");
-        let [least, most] = efficiency;
-        assert!(
-            least > 0.0 && most > least && most <= 1.0,
-            "the gear's efficiency must lie between two rising values above 0 and at most 1"
-        );
-        // (1/eta - eta)/(1/eta + eta)
-        let loss = [(1.0 - most * most) / (1.0 + most * most), (1.0 - least * least) / (1.0 + least * least)];
+        check(torque, speed, every);
         TorqueConstantConfig {
             window: (0.5 / every) as u32,
             pause: (10.0 / every) as u32,
             least_speed: (0.25 * speed) as f32,
             torque: torque as f32,
             weight: (0.2 * torque) as f32,
-            loss: [loss[0] as f32, loss[1] as f32],
+            loss: frictions(efficiency),
         }
     }
 }
@@ -173,7 +165,6 @@ impl TorqueConstant {
         }
     }
 
-    /// A confirmed load.
     fn take(&mut self, config: &TorqueConstantConfig, point: Point) -> Finding {
         let apart = APART * config.torque;
         let partner = self.points.into_iter().flatten().find(|other| (other.load - point.load).abs() >= apart);

@@ -247,22 +247,18 @@ impl Chain {
     #[must_use]
     pub const fn losses(&self) -> Losses {
         let mut softest = 0;
-        let mut j = 1;
-        while j + 1 < self.count {
+        each!(j, 1.., j + 1 < self.count, {
             if self.shaft[j].stiffness < self.shaft[softest].stiffness {
                 softest = j;
             }
-            j += 1;
-        }
+        });
         let mut before = [1.0; 2];
         let mut behind = [1.0; 2];
-        let mut j = 0;
-        while j + 1 < self.count {
+        each!(j, 0.., j + 1 < self.count, {
             let Shaft { efficiency, back_efficiency, .. } = self.shaft[j];
             let side = if j <= softest { &mut before } else { &mut behind };
             *side = in_a_row(*side, [efficiency, back_efficiency]);
-            j += 1;
-        }
+        });
         let end = if self.count > 1 { &mut behind } else { &mut before };
         *end = in_a_row(*end, in_a_row(self.ending, self.waiting));
         Losses { before, behind }
@@ -375,11 +371,9 @@ impl Chain {
     #[must_use]
     pub const fn total_gap(&self) -> f64 {
         let mut sum = 0.0;
-        let mut j = 0;
-        while j + 1 < self.count {
+        each!(j, 0.., j + 1 < self.count, {
             sum += self.shaft[j].gap;
-            j += 1;
-        }
+        });
         sum
     }
 

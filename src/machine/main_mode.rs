@@ -49,13 +49,11 @@ impl MainMode {
             antiresonance *= held[i + 1] / all[i].frequency;
         });
         let mut nearest = held[0];
-        let mut i = 1;
-        while i <= index {
+        each!(i, 1.., i <= index, {
             if (held[i] - antiresonance).abs() < (nearest - antiresonance).abs() {
                 nearest = held[i];
             }
-            i += 1;
-        }
+        });
         Self { index, next, antiresonance, nearest }
     }
 }

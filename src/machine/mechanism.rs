@@ -150,7 +150,6 @@ impl Mechanism {
     }
 }
 
-/// Angle (rad) of a point.
 pub(super) const fn angle_of(point: usize) -> f64 {
     point as f64 * (TAU / MECHANISM_POINTS as f64)
 }
@@ -172,8 +171,7 @@ const fn interpolated<const K: usize>(values: &[f64; K]) -> Option<[[f64; 3]; ME
         places[j] = sin_cos(angle_of(j));
     });
     let mut out = [[0.0; 3]; MECHANISM_POINTS];
-    let mut order = 0;
-    while 2 * order < K {
+    each!(order, 0.., 2 * order < K, {
         let weight = if order == 0 { 1.0 } else { 2.0 } / K as f64;
         let (mut cosine, mut sine) = (0.0, 0.0);
         each!(k, 0..K, {
@@ -189,7 +187,6 @@ const fn interpolated<const K: usize>(values: &[f64; K]) -> Option<[[f64; 3]; ME
             out[j][1] += n * (sine * c - cosine * s);
             out[j][2] -= n * n * value;
         });
-        order += 1;
-    }
+    });
     Some(out)
 }

@@ -55,11 +55,9 @@ impl Modes {
         each!(i, 0..count, {
             let mode = &mut modes.mode[i];
             mode.frequency = free.0[i];
-            let mut j = 0;
-            while j <= count {
+            each!(j, 0.., j <= count, {
                 mode.shape[j] = free.1[i][j] / (mode.frequency * sqrt(inertia[j]));
-                j += 1;
-            }
+            });
             mode.residue = mode.shape[0] * mode.shape[0];
         });
         modes
@@ -141,15 +139,13 @@ const fn singular(mut columns: Columns, shafts: usize) -> ([f64; SHAFTS], Column
     let mut turned = true;
     while turned && sweep < 60 {
         turned = false;
-        let mut p = 0;
-        while p + 1 < shafts {
+        each!(p, 0.., p + 1 < shafts, {
             each!(q, (p + 1)..shafts, {
                 if rotate(&mut columns, p, q, rows) {
                     turned = true;
                 }
             });
-            p += 1;
-        }
+        });
         sweep += 1;
     }
     let mut values = [0.0; SHAFTS];

@@ -68,19 +68,15 @@ impl Chain {
             Match::TextbookCut(cut) => {
                 self.lump(&mut machine, cut);
                 let mut k = self.shaft[0].stiffness;
-                let mut j = 1;
-                while j + 1 < self.count {
+                each!(j, 1.., j + 1 < self.count, {
                     k = series(k, self.shaft[j].stiffness);
-                    j += 1;
-                }
+                });
                 machine.stiffness = k;
                 machine.damping = 0.0;
-                let mut j = 0;
-                while j + 1 < self.count {
+                each!(j, 0.., j + 1 < self.count, {
                     let part = k / self.shaft[j].stiffness;
                     machine.damping += self.shaft[j].damping * part * part;
-                    j += 1;
-                }
+                });
             }
             Match::TextbookShaft(cut) => {
                 self.lump(&mut machine, cut);
@@ -115,11 +111,9 @@ impl Chain {
     #[must_use]
     pub const fn compliance(&self) -> f64 {
         let mut stiffness = [0.0; super::CAPACITY - 1];
-        let mut j = 0;
-        while j + 1 < self.count {
+        each!(j, 0.., j + 1 < self.count, {
             stiffness[j] = self.shaft[j].stiffness;
-            j += 1;
-        }
+        });
         compliance(&self.inertia, &stiffness, self.count - 1)
     }
 }
@@ -186,11 +180,9 @@ pub(super) const fn compliance(
     shafts: usize,
 ) -> f64 {
     let mut total = 0.0;
-    let mut j = 0;
-    while j <= shafts {
+    each!(j, 0.., j <= shafts, {
         total += inertia[j];
-        j += 1;
-    }
+    });
     let mut sum = 0.0;
     let mut beyond = 0.0;
     let mut j = shafts;

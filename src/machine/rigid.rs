@@ -43,9 +43,7 @@ impl Chain {
     /// # Errors
     /// As [`check`](Self::check).
     pub const fn try_rigid(&self) -> Result<Rigid, Error> {
-        match self.check() {
-            Ok(()) => Ok(Rigid { inertia: self.total_inertia(), gravity_torque: self.gravity_torque() }),
-            Err(error) => Err(error),
-        }
+        get!(self.check());
+        Ok(Rigid { inertia: self.total_inertia(), gravity_torque: self.gravity_torque() })
     }
 }

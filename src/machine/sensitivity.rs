@@ -103,11 +103,9 @@ impl Chain {
         each!(j, mass..shafts, {
             inertia[j] = inertia[j + 1];
         });
-        let mut j = shaft;
-        while j + 1 < shafts {
+        each!(j, shaft.., j + 1 < shafts, {
             stiffness[j] = stiffness[j + 1];
-            j += 1;
-        }
+        });
         let left = lowest(&inertia, &stiffness, shafts - 1);
         Part {
             element,

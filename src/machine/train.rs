@@ -77,11 +77,9 @@ impl Train {
     #[must_use]
     pub const fn of(chain: Chain) -> Self {
         let mut joint = [Joint { from: 0, to: 0, shaft: Shaft::NONE }; TRAIN_SHAFTS];
-        let mut j = 0;
-        while j + 1 < chain.count {
+        each!(j, 0.., j + 1 < chain.count, {
             joint[j] = Joint { from: j, to: j + 1, shaft: chain.shaft[j] };
-            j += 1;
-        }
+        });
         Self {
             inertia: chain.inertia,
             count: chain.count,
@@ -213,14 +211,12 @@ impl Train {
     pub const fn total_gap(&self) -> f64 {
         let mut gap = [0.0; CAPACITY];
         let mut largest = 0.0;
-        let mut j = 0;
-        while j + 1 < self.count {
+        each!(j, 0.., j + 1 < self.count, {
             gap[j + 1] = gap[self.joint[j].from] + self.joint[j].shaft.gap;
             if gap[j + 1] > largest {
                 largest = gap[j + 1];
             }
-            j += 1;
-        }
+        });
         largest
     }
 
@@ -291,21 +287,17 @@ impl Train {
         let free = self.scaled(false);
         let held = self.scaled(true);
         let mut modes = Modes::of(&self.inertia, self.count - 1, free, held);
-        let mut i = 0;
-        while i + 1 < self.count {
+        each!(i, 0.., i + 1 < self.count, {
             let mode = modes.mode_mut(i);
-            let mut j = 0;
-            while j + 1 < self.count + self.closing {
+            each!(j, 0.., j + 1 < self.count + self.closing, {
                 let Joint { from, to, shaft } = self.joint[j];
                 let twist = mode.shape[from] - mode.shape[to];
                 mode.damping += shaft.damping * twist * twist;
-                j += 1;
-            }
+            });
             each!(j, 0..self.count, {
                 mode.damping += self.drag[j] * mode.shape[j] * mode.shape[j];
             });
-            i += 1;
-        }
+        });
         modes
     }
 

@@ -41,16 +41,14 @@ impl Train {
         let bare = self.inertia[at];
         // a rigid train carries the whole ring
         let (mut carried, mut drag) = (ring, 0.0);
-        let mut pass = 0;
-        while pass < PASSES && self.masses().len() > 1 {
+        each!(pass, 0.., pass < PASSES && self.masses().len() > 1, {
             self.inertia[at] = bare + carried;
             let modes = self.modes();
             let main = modes.resonances()[MainMode::of(&modes, self.total_inertia()).index];
             let inertial = ring * main.frequency;
             let slip = inertial * inertial / (coupling * coupling + inertial * inertial);
             (carried, drag) = (ring * (1.0 - slip), coupling * slip);
-            pass += 1;
-        }
+        });
         self.inertia[at] = bare + carried;
         self.slipping += ring - carried;
         self.drag[at] += drag;

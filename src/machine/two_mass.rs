@@ -52,10 +52,8 @@ impl TwoMass {
 
     /// The machine, if it passes [`check`](Self::check).
     pub(super) const fn checked(self) -> Result<Self, Error> {
-        match self.check() {
-            Ok(()) => Ok(self),
-            Err(error) => Err(error),
-        }
+        get!(self.check());
+        Ok(self)
     }
 
     /// The same with a backlash: the whole free travel (rad) at the motor.

@@ -24,7 +24,7 @@
 //! Beyond the deadband it is kept, so that a gear that loses less than lambda, and creeps, is followed.
 
 use super::{Observer, Prediction};
-use crate::number::{Fixed, Magnitude, Number, Part};
+use crate::number::{Fixed, Magnitude, Number};
 use crate::sample::Estimate;
 
 /// Constants of [`GearedObserver`].
@@ -74,10 +74,6 @@ impl<N: Number> GearFriction<N> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct GearedObserver<O> {
     pub(crate) observer: O,
-}
-
-impl<N, O: Part<N>> Part<N> for GearedObserver<O> {
-    type State = GearedObserver<O::State>;
 }
 
 /// Stiction of a gear at rest, beside the operations of [`Number`].
@@ -150,18 +146,6 @@ impl<N: Stiction, O: Observer<N>> Observer<N> for GearedObserver<O> {
         GearedObserver { observer: O::steady(&config.observer, angle, torque, speed) }
     }
 
-    fn switch(&mut self, from: &Self::Config, to: &Self::Config) {
-        self.observer.switch(&from.observer, &to.observer);
-    }
-
-    fn speed_of_turn(config: &Self::Config, turned: N) -> N {
-        O::speed_of_turn(&config.observer, turned)
-    }
-
-    fn resync(&mut self, angle: u32) {
-        self.observer.resync(angle);
-    }
-
     #[inline(always)]
     fn predict(&self, config: &Self::Config, angle: u32, torque: N) -> Prediction<N, Self::States> {
         let now = self.observer.estimate(&config.observer);
@@ -197,20 +181,7 @@ impl<N: Stiction, O: Observer<N>> Observer<N> for GearedObserver<O> {
         Estimate { shaft_torque: behind(now.shaft_torque), load_torque: behind(now.load_torque), ..now }
     }
 
-    #[inline(always)]
-    fn known_torque(&self, config: &Self::Config) -> N {
-        self.observer.known_torque(&config.observer)
-    }
-
-    #[inline(always)]
-    fn angle(&self) -> u32 {
-        self.observer.angle()
-    }
-
-    #[inline(always)]
-    fn beyond_base(&self) -> u32 {
-        self.observer.beyond_base()
-    }
+    handed_on!();
 }
 
 #[cfg(test)]

@@ -12,7 +12,6 @@
 //! through zero at standstill, where the motor's angle contains nothing of it: the load torque is then the shaft torque.
 
 use super::{Observer, Prediction, Stiction};
-use crate::number::Part;
 use crate::sample::Estimate;
 
 /// Constants of [`LoadGearObserver`].
@@ -36,10 +35,6 @@ pub struct LoadGearObserver<O> {
     pub(crate) observer: O,
 }
 
-impl<N, O: Part<N>> Part<N> for LoadGearObserver<O> {
-    type State = LoadGearObserver<O::State>;
-}
-
 impl<N: Stiction, O: Observer<N>> Observer<N> for LoadGearObserver<O> {
     type Config = LoadGearConfig<N, O::Config>;
     type States = O::States;
@@ -50,18 +45,6 @@ impl<N: Stiction, O: Observer<N>> Observer<N> for LoadGearObserver<O> {
 
     fn steady(config: &Self::Config, angle: u32, torque: N, speed: N) -> Self {
         LoadGearObserver { observer: O::steady(&config.observer, angle, torque, speed) }
-    }
-
-    fn switch(&mut self, from: &Self::Config, to: &Self::Config) {
-        self.observer.switch(&from.observer, &to.observer);
-    }
-
-    fn speed_of_turn(config: &Self::Config, turned: N) -> N {
-        O::speed_of_turn(&config.observer, turned)
-    }
-
-    fn resync(&mut self, angle: u32) {
-        self.observer.resync(angle);
     }
 
     #[inline(always)]
@@ -88,18 +71,5 @@ impl<N: Stiction, O: Observer<N>> Observer<N> for LoadGearObserver<O> {
         Estimate { load_torque: now.load_torque - friction, ..now }
     }
 
-    #[inline(always)]
-    fn known_torque(&self, config: &Self::Config) -> N {
-        self.observer.known_torque(&config.observer)
-    }
-
-    #[inline(always)]
-    fn angle(&self) -> u32 {
-        self.observer.angle()
-    }
-
-    #[inline(always)]
-    fn beyond_base(&self) -> u32 {
-        self.observer.beyond_base()
-    }
+    handed_on!();
 }

@@ -22,7 +22,7 @@
 
 use super::{Observer, Prediction, RigidConfig, RigidObserver};
 use crate::angle::{RotorAngle, RotorAngleConfig};
-use crate::number::{Number, Part};
+use crate::number::Number;
 use crate::sample::Estimate;
 
 /// Places of the table on a turn of the crank. A second harmonic of the inertia is off by 0.5 % of its amplitude at
@@ -79,10 +79,6 @@ pub struct MechanismObserver<N = f32, const TOOLS: usize = 0> {
 
 /// The observer of a mechanism with a tool, its weight and the force at it.
 pub type ToolObserver<N = f32> = MechanismObserver<N, 1>;
-
-impl<N, const TOOLS: usize> Part<N> for MechanismObserver<f32, TOOLS> {
-    type State = MechanismObserver<N, TOOLS>;
-}
 
 impl<N: Number, const TOOLS: usize> MechanismObserver<N, TOOLS> {
     /// Homing: sets the crank's angle from the mechanism's zero (2^-32 turn), positive as the motor's.

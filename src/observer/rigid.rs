@@ -7,7 +7,7 @@
 //! The shaft torque is then the load torque plus the acceleration torque of the load's share of the inertia.
 
 use super::{AngleTracker, Observer, Prediction};
-use crate::number::{Number, Part};
+use crate::number::Number;
 use crate::sample::Estimate;
 
 /// Constants of [`RigidObserver`]. Made by [`crate::settings`] from a design; the fields are in SI units for floats.
@@ -39,10 +39,6 @@ pub struct RigidObserver<N = f32> {
     angle: AngleTracker<N>,
 }
 
-impl<N> Part<N> for RigidObserver {
-    type State = RigidObserver<N>;
-}
-
 impl<N: Number> Observer<N> for RigidObserver<N> {
     type Config = RigidConfig<N>;
     type States = ([N; 2], N);
@@ -56,13 +52,7 @@ impl<N: Number> Observer<N> for RigidObserver<N> {
         }
     }
 
-    fn speed_of_turn(config: &RigidConfig<N>, turned: N) -> N {
-        turned.speed_of_turn(config.speed)
-    }
-
-    fn resync(&mut self, angle: u32) {
-        self.angle = AngleTracker::new(angle);
-    }
+    tracked!();
 
     #[inline(always)]
     fn predict(&self, config: &RigidConfig<N>, angle: u32, torque: N) -> Prediction<N, Self::States> {
@@ -100,11 +90,6 @@ impl<N: Number> Observer<N> for RigidObserver<N> {
             load_speed: self.speed,
             load_torque: self.load_torque,
         }
-    }
-
-    #[inline(always)]
-    fn angle(&self) -> u32 {
-        self.angle.angle()
     }
 
     #[inline(always)]

@@ -13,7 +13,7 @@
 //! exact one.
 
 use super::{AngleTracker, Observer, Prediction};
-use crate::number::{Number, Part};
+use crate::number::Number;
 use crate::sample::Estimate;
 
 /// Constants of [`SemiImplicitObserver`]. Made by [`crate::settings`] from a design; the fields are in SI units for
@@ -49,10 +49,6 @@ pub struct SemiImplicitObserver<N = f32> {
     angle: AngleTracker<N>,
 }
 
-impl<N> Part<N> for SemiImplicitObserver {
-    type State = SemiImplicitObserver<N>;
-}
-
 impl<N: Number> Observer<N> for SemiImplicitObserver<N> {
     type Config = SemiImplicitConfig<N>;
     type States = [N; 4];
@@ -68,13 +64,7 @@ impl<N: Number> Observer<N> for SemiImplicitObserver<N> {
         }
     }
 
-    fn speed_of_turn(config: &SemiImplicitConfig<N>, turned: N) -> N {
-        turned.speed_of_turn(config.speed)
-    }
-
-    fn resync(&mut self, angle: u32) {
-        self.angle = AngleTracker::new(angle);
-    }
+    tracked!();
 
     #[inline(always)]
     fn predict(&self, config: &SemiImplicitConfig<N>, angle: u32, torque: N) -> Prediction<N, Self::States> {
@@ -108,11 +98,6 @@ impl<N: Number> Observer<N> for SemiImplicitObserver<N> {
             load_speed: self.load_speed,
             load_torque: self.load_torque,
         }
-    }
-
-    #[inline(always)]
-    fn angle(&self) -> u32 {
-        self.angle.angle()
     }
 
     #[inline(always)]

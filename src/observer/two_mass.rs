@@ -16,7 +16,7 @@
 //! stiffness. The motor turns by the mean speed's trapezium plus its share of the twist's increment, again exactly.
 
 use super::{AngleTracker, Observer, Prediction};
-use crate::number::{Number, Part};
+use crate::number::Number;
 use crate::sample::Estimate;
 
 /// Constants of [`TwoMassObserver`]. Made by [`crate::settings`] from a design; the fields are in SI units for floats.
@@ -59,10 +59,6 @@ pub struct TwoMassObserver<N = f32> {
     angle: AngleTracker<N>,
 }
 
-impl<N> Part<N> for TwoMassObserver {
-    type State = TwoMassObserver<N>;
-}
-
 impl<N: Number> Observer<N> for TwoMassObserver<N> {
     type Config = TwoMassConfig<N>;
     type States = [N; 4];
@@ -85,13 +81,7 @@ impl<N: Number> Observer<N> for TwoMassObserver<N> {
         self.twist = self.twist.accumulate(&mut { N::CARRY }, [to.compliance], missing).saturated();
     }
 
-    fn speed_of_turn(config: &TwoMassConfig<N>, turned: N) -> N {
-        turned.speed_of_turn(config.speed)
-    }
-
-    fn resync(&mut self, angle: u32) {
-        self.angle = AngleTracker::new(angle);
-    }
+    tracked!();
 
     #[inline(always)]
     fn predict(&self, config: &TwoMassConfig<N>, angle: u32, torque: N) -> Prediction<N, Self::States> {
@@ -127,11 +117,6 @@ impl<N: Number> Observer<N> for TwoMassObserver<N> {
             load_speed: self.speed.accumulate(&mut carry, [config.share[1]], [pair[1]]),
             load_torque: self.load_torque,
         }
-    }
-
-    #[inline(always)]
-    fn angle(&self) -> u32 {
-        self.angle.angle()
     }
 
     #[inline(always)]

@@ -4,9 +4,10 @@ use crate::governor::{LagConfig, SpeedLoopConfig};
 use crate::number::{Interpolate, Magnitude, Number, Weight};
 use crate::observer::{GearFriction, GearedConfig, RigidConfig, SemiImplicitConfig, Stiction, TwoMassConfig};
 
+/// Each field of a configuration between those of two others.
 macro_rules! fields {
-    ($($config:ident { $($field:ident),+ })+) => {$(
-        impl<N> Interpolate for $config<N>
+    ($([$($generic:tt)*] $config:ident<$($argument:ident),+> { $($field:ident),+ })+) => {$(
+        impl<$($generic)*> Interpolate for $config<$($argument),+>
         where
             N: Number<Coefficient: Interpolate> + Interpolate,
         {
@@ -18,43 +19,13 @@ macro_rules! fields {
 }
 
 fields! {
-    RigidConfig { acceleration, turn, correction, angle_correction, speed, load_share }
-    SemiImplicitConfig { motor, load, shaft, turn, correction, angle_correction, speed }
-    LagConfig { share }
-}
-
-impl<N, F> Interpolate for SpeedLoopConfig<N, F>
-where
-    N: Number<Coefficient: Interpolate> + Interpolate,
-    F: Interpolate,
-{
-    fn between(&self, other: &Self, weight: Weight) -> Self {
-        SpeedLoopConfig {
-            proportional: self.proportional.between(&other.proportional, weight),
-            damping: self.damping.between(&other.damping, weight),
-            reset: self.reset.between(&other.reset, weight),
-            torque_limit: self.torque_limit.between(&other.torque_limit, weight),
-            ramp: self.ramp.between(&other.ramp, weight),
-            filter: self.filter.between(&other.filter, weight),
-        }
-    }
-}
-
-impl<N, C> Interpolate for GearedConfig<N, C>
-where
-    N: Stiction<Coefficient: Interpolate, StictionGain: Interpolate> + Interpolate,
-    C: Interpolate,
-{
-    fn between(&self, other: &Self, weight: Weight) -> Self {
-        GearedConfig {
-            observer: self.observer.between(&other.observer, weight),
-            friction: GearFriction {
-                share: self.friction.share.between(&other.friction.share, weight),
-                excess: self.friction.excess.between(&other.friction.excess, weight),
-            },
-            stiction_gain: self.stiction_gain.between(&other.stiction_gain, weight),
-            deadband: self.deadband.between(&other.deadband, weight),
-        }
+    [N] RigidConfig<N> { acceleration, turn, correction, angle_correction, speed, load_share }
+    [N] SemiImplicitConfig<N> { motor, load, shaft, turn, correction, angle_correction, speed }
+    [N] LagConfig<N> { share }
+    [N, F: Interpolate] SpeedLoopConfig<N, F> { proportional, damping, reset, torque_limit, ramp, filter }
+    [N] GearFriction<N> { share, excess }
+    [N: Stiction<StictionGain: Interpolate>, C: Interpolate] GearedConfig<N, C> {
+        observer, friction, stiction_gain, deadband
     }
 }
 

@@ -1,9 +1,8 @@
 //! Constants of the watch on an actuator.
 
+use super::Error;
 use super::constants::constants;
 use super::governor_parts::{all_finite, ticks};
-use super::to::Values;
-use super::{Error, Format};
 use crate::configure::Rating;
 use crate::governor::ActuatorMonitorConfig;
 use crate::math::exp_m1;
@@ -33,18 +32,6 @@ impl ActuatorMonitorSettings {
     }
 }
 
-const fn torques(settings: &ActuatorMonitorSettings, format: &Format) -> Values<2, 1> {
-    let ActuatorMonitorSettings { tolerance, max_torque, .. } = *settings;
-    let per_unit = tolerance / format.bases.torque;
-    // A tolerance that rounds to zero would reject every position.
-    let measured = if format.unit == 1.0 { per_unit as f32 > 0.0 } else { per_unit * format.unit >= 1.0 };
-    if measured && max_torque > tolerance && all_finite(&[tolerance, max_torque]) {
-        Ok(([per_unit, max_torque / format.bases.torque], [0.0]))
-    } else {
-        Err(Error::Value(WATCH))
-    }
-}
-
 /// Share of a step that a lag covers in a tick.
 const fn covered(lag: f64, period: f64) -> Result<f64, Error> {
     if lag > 0.0 && lag.is_finite() { Ok(-exp_m1(-period / lag)) } else { Err(Error::Value(LAG)) }
@@ -56,9 +43,16 @@ constants! {
     /// twice their base.
     impl[const K: usize] ActuatorMonitorConfig[, K],
     new, try_new(lags: &[f64; K], settings: &ActuatorMonitorSettings, period: f64), |format| {
-        let ([tolerance, max_torque], [none]) = get!(To::part(torques(settings, &format), WATCH));
+        let ActuatorMonitorSettings { tolerance, max_torque, .. } = *settings;
+        let per_unit = tolerance / format.bases.torque;
+        // A tolerance that rounds to zero would reject every position.
+        let measured = if format.unit == 1.0 { per_unit as f32 > 0.0 } else { per_unit * format.unit >= 1.0 };
+        if !(measured && max_torque > tolerance && all_finite(&[tolerance, max_torque])) {
+            return Err(Error::Value(WATCH));
+        }
+        let [tolerance, max_torque] = get!(To::numbers([per_unit, max_torque / format.bases.torque], WATCH));
         let timeout = get!(ticks(settings.timeout, period));
-        let mut share = [none; K];
+        let mut share = [get!(To::coefficient(0.0, LAG)); K];
         each!(k, 0..K, {
             share[k] = match To::coefficient(get!(covered(lags[k], period)), LAG) {
                 Ok(share) => share,

@@ -4,23 +4,6 @@
 /// `try_new`, with [`To`] of the number and the format that the bases give it.
 macro_rules! constants {
     (
-        $(#[$doc:meta])* impl[$($generic:tt)*] $name:ident[$($rest:tt)*],
-        $new:ident, $try_new:ident$(<const $K:ident: usize>)?($($argument:ident: $type:ty),*), |$format:ident| $body:block
-    ) => {
-        constants! {
-            @one f32, [$(#[$doc])*] [$($generic)*] $name [$($rest)*]
-            $new $try_new [$($K)?] ($($argument: $type,)*) $format $body
-        }
-        constants! {
-            @one f64, [$(#[$doc])*] [$($generic)*] $name [$($rest)*]
-            $new $try_new [$($K)?] ($($argument: $type,)*) $format $body
-        }
-        constants! {
-            @one $crate::number::Fixed, [$(#[$doc])*] [$($generic)*] $name [$($rest)*]
-            $new $try_new [$($K)?] ($($argument: $type,)*) $format $body
-        }
-    };
-    (
         @one $number:ty, [$($doc:tt)*] [$($generic:tt)*] $name:ident [$($rest:tt)*]
         $new:ident $try_new:ident [$($K:ident)?] ($($argument:ident: $type:ty,)*) $format:ident $body:block
     ) => {
@@ -49,6 +32,23 @@ macro_rules! constants {
             }
         }
     };
+    ($(
+        $(#[$doc:meta])* impl[$($generic:tt)*] $name:ident[$($rest:tt)*],
+        $new:ident, $try_new:ident$(<const $K:ident: usize>)?($($argument:ident: $type:ty),*), |$format:ident| $body:block
+    )+) => {$(
+        constants! {
+            @one f32, [$(#[$doc])*] [$($generic)*] $name [$($rest)*]
+            $new $try_new [$($K)?] ($($argument: $type,)*) $format $body
+        }
+        constants! {
+            @one f64, [$(#[$doc])*] [$($generic)*] $name [$($rest)*]
+            $new $try_new [$($K)?] ($($argument: $type,)*) $format $body
+        }
+        constants! {
+            @one $crate::number::Fixed, [$(#[$doc])*] [$($generic)*] $name [$($rest)*]
+            $new $try_new [$($K)?] ($($argument: $type,)*) $format $body
+        }
+    )+};
 }
 
 pub(super) use constants;

@@ -198,6 +198,7 @@ mod tests {
             CycleMeanConfig::<Fixed>::try_new::<4>(Cycle::TURN, period, Bases::SI).map(|made| made.speed.to_f64())
         };
         assert!(made(0.4988).is_ok_and(|speed| (speed - 0.4988).abs() < 1e-9));
+        assert!(CycleMeanConfig::<f32>::try_new::<4>(Cycle::TURN, 1e-60, Bases::SI).is_err());
         for factor in [0.49895, 0.5, 2.0] {
             assert_eq!(made(factor), Err(Error::Coefficient(SLOW)), "{factor}");
         }

@@ -9,15 +9,10 @@ pub(crate) struct Format {
     pub(crate) bases: Bases,
     /// Units in the last place to the base; 1 for floats.
     pub(crate) unit: f64,
-    /// Factor of `widened`.
     pub(crate) widened: f64,
-    /// Factor of `less_turn`.
     pub(crate) turn: f64,
-    /// Factor of `innovation_operand`.
     pub(crate) innovation: f64,
-    /// Factor of `gained`.
     pub(crate) gain: f64,
-    /// Factor of `speed_of_turn`.
     pub(crate) speed: f64,
 }
 
@@ -26,7 +21,6 @@ impl Format {
     pub(crate) const FLOAT: Format =
         Format { bases: Bases::SI, unit: 1.0, widened: 1.0, turn: 1.0, innovation: 1.0, gain: 1.0, speed: 1.0 };
 
-    /// Fixed point per unit of these bases.
     pub(crate) const fn fixed(bases: Bases) -> Format {
         Format {
             bases,

@@ -108,9 +108,7 @@ constants! {
         let (friction, stiction_gain) = (GearFriction { share, excess }, To::stiction(stiction_gain));
         Ok(GearedConfig { observer, friction, stiction_gain, deadband: get!(To::angle(deadband, PLAY)) })
     }
-}
 
-constants! {
     /// [`Error::Value`] for a figure of the gear that is out of its range; [`Error::Coefficient`] in fixed point for
     /// losses above half of the shaft torque.
     impl[C: Copy] LoadGearConfig[, C], new, try_new(observer: C, gear: &LoadGear, period: f64), |_format| {

@@ -3,7 +3,6 @@
 use super::constants::constants;
 use super::convert::fixed;
 use super::format::ANGLE_PER_RADIAN;
-use super::to::Values;
 use super::{Bases, Error, Format, SpeedLoopSettings};
 use crate::configure::Rating;
 use crate::design::{GovernorDesign, SpeedLoopDesign};
@@ -129,75 +128,53 @@ pub(super) const fn within_base(torque: f64, format: &Format, sentence: &'static
     if format.unit != 1.0 && !(torque.abs() <= 1.0) { Err(Error::Value(sentence)) } else { Ok(torque) }
 }
 
+/// Gain on the error, reset and step of the ramp.
 const fn gains(
     proportional: f64,
     integral: f64,
     period: f64,
     settings: SpeedLoopSettings,
     format: &Format,
-) -> Values<1, 2> {
+) -> Result<([f64; 2], f64), Error> {
     let SpeedLoopSettings { torque_limit, ramp } = settings;
-    let step = ramp * period / format.bases.speed;
-    // A ramp that rounds to zero would hold the setpoint.
-    if !(step * format.unit >= least_step(format) && all_finite(&[step])) {
-        return Err(Error::Value(RAMP));
-    }
+    let step = get!(step(ramp, period, format.bases.speed, format, RAMP));
     let [gain, _, reset] = get!(law(proportional, integral, 0.0, period, format));
     if !(torque_limit > 0.0 && torque_limit.is_finite()) {
         return Err(Error::Value(LIMIT));
     }
     get!(holds(integral, torque_limit, format));
-    Ok(([step], [gain, reset]))
+    Ok(([gain, reset], step))
 }
 
 /// The least step of a ramp that is not zero, in units of the format.
-pub(super) const fn least_step(format: &Format) -> f64 {
+const fn least_step(format: &Format) -> f64 {
     if format.unit == 1.0 { f32::MIN_POSITIVE as f64 } else { 1.0 }
 }
 
-const fn droop(droop: f64, rated_speed: f64, rated_torque: f64, format: &Format) -> Values<0, 1> {
-    let value = droop * rated_speed / rated_torque * format.bases.torque / format.bases.speed;
-    if droop >= 0.0 && rated_speed > 0.0 && rated_torque > 0.0 && all_finite(&[value]) {
-        Ok(([], [value]))
-    } else {
-        Err(Error::Value(DROOP))
-    }
+/// The step of a tick at a rate, per unit of a base: one that rounds to zero would hold what follows it.
+pub(super) const fn step(
+    rate: f64,
+    period: f64,
+    base: f64,
+    format: &Format,
+    sentence: &'static str,
+) -> Result<f64, Error> {
+    let step = rate * period / base;
+    if step * format.unit >= least_step(format) && all_finite(&[step]) { Ok(step) } else { Err(Error::Value(sentence)) }
 }
 
-const fn feed_forward(share: f64, format: &Format) -> Values<0, 1> {
-    if share >= 0.0 && share <= 1.0 { Ok(([], [share / format.widened])) } else { Err(Error::Value(SHARE)) }
-}
-
-const fn acceleration(feedback: f64, format: &Format) -> Values<0, 1> {
-    if feedback >= 0.0 && all_finite(&[feedback]) {
-        Ok(([], [-feedback / format.widened]))
-    } else {
-        Err(Error::Value(ACCELERATION))
-    }
-}
-
-const fn damping(slip: f64, format: &Format) -> Values<0, 1> {
-    let damping = -slip * format.bases.speed / (format.bases.torque * format.gain);
-    if !damps_within_base(slip, format) {
-        Err(Error::Coefficient(GAIN))
-    } else if all_finite(&[damping]) {
-        Ok(([], [damping]))
-    } else {
-        Err(Error::Coefficient(NO_GAIN))
-    }
-}
-
-pub(super) const fn between(min: f64, max: f64, format: &Format) -> Values<2, 0> {
+pub(super) const fn between(min: f64, max: f64, format: &Format) -> Result<[f64; 2], Error> {
     let torque = format.bases.torque;
     let least = if format.unit == 1.0 { least_step(format) } else { format.unit / LEAST_LIMIT };
     if min <= 0.0 && max / torque * format.unit >= least && all_finite(&[min, max]) {
-        Ok(([get!(within_base(min / torque, format, LIMIT)), get!(within_base(max / torque, format, LIMIT))], []))
+        Ok([get!(within_base(min / torque, format, LIMIT)), get!(within_base(max / torque, format, LIMIT))])
     } else {
         Err(Error::Value(LIMIT))
     }
 }
 
-const fn windows(settings: &SequencerSettings, format: &Format) -> Values<6, 0> {
+/// Middle and half width of the running and of the allowed speeds, shaft torque, standstill.
+const fn windows(settings: &SequencerSettings, format: &Format) -> Result<[f64; 6], Error> {
     let SequencerSettings { overspeed, underspeed, reverse, shaft_torque, standstill, .. } = *settings;
     let both_ways = underspeed < 0.0;
     let ordered = standstill > 0.0 && (both_ways || standstill < underspeed && underspeed < overspeed);
@@ -207,17 +184,14 @@ const fn windows(settings: &SequencerSettings, format: &Format) -> Values<6, 0> 
     }
     let speed = format.bases.speed;
     let lowest = if both_ways { -reverse } else { underspeed };
-    Ok((
-        [
-            0.5 * (lowest + overspeed) / speed,
-            0.5 * (overspeed - lowest) / speed,
-            0.5 * (overspeed - reverse) / speed,
-            0.5 * (overspeed + reverse) / speed,
-            shaft_torque / format.bases.torque,
-            standstill / speed,
-        ],
-        [],
-    ))
+    Ok([
+        0.5 * (lowest + overspeed) / speed,
+        0.5 * (overspeed - lowest) / speed,
+        0.5 * (overspeed - reverse) / speed,
+        0.5 * (overspeed + reverse) / speed,
+        shaft_torque / format.bases.torque,
+        standstill / speed,
+    ])
 }
 
 pub(super) const fn ticks(time: f64, period: f64) -> Result<u32, Error> {
@@ -233,66 +207,67 @@ constants! {
     /// 1 % of it in 400 ticks; [`Error::Coefficient`] for a gain that is not finite or beyond fixed point.
     impl[] Gains[], new, try_new(design: &GovernorDesign, settings: SpeedLoopSettings), |format| {
         let GovernorDesign { proportional, integral, period, .. } = *design;
-        let ([ramp], [proportional, reset]) =
-            get!(To::part(gains(proportional, integral, period, settings, &format), GAIN));
-        Ok(Gains { proportional, reset, ramp })
+        let (law, ramp) = get!(gains(proportional, integral, period, settings, &format));
+        let [proportional, reset] = get!(To::coefficients(law, GAIN));
+        Ok(Gains { proportional, reset, ramp: get!(To::number(ramp, GAIN)) })
     }
-}
 
-constants! {
     /// [`Error`] for a droop (a fraction of the rated speed (rad/s) at the rated torque (N m)) that is out of range.
     impl[] DroopConfig[], new, try_new(fraction: f64, rated_speed: f64, rated_torque: f64), |format| {
-        let ([], [droop]) = get!(To::part(droop(fraction, rated_speed, rated_torque, &format), DROOP));
-        Ok(DroopConfig { droop })
+        let droop = fraction * rated_speed / rated_torque * format.bases.torque / format.bases.speed;
+        if !(fraction >= 0.0 && rated_speed > 0.0 && rated_torque > 0.0 && all_finite(&[droop])) {
+            return Err(Error::Value(DROOP));
+        }
+        Ok(DroopConfig { droop: get!(To::coefficient(droop, DROOP)) })
     }
-}
 
-constants! {
     /// [`Error::Value`] for a share that is not from 0 to 1.
     impl[] FeedForwardConfig[], new, try_new(share: f64), |format| {
-        let ([], [share]) = get!(To::part(feed_forward(share, &format), SHARE));
-        Ok(FeedForwardConfig { share })
+        if !(share >= 0.0 && share <= 1.0) {
+            return Err(Error::Value(SHARE));
+        }
+        Ok(FeedForwardConfig { share: get!(To::coefficient(share / format.widened, SHARE)) })
     }
-}
 
-constants! {
     /// [`Error`] for a feedback that is negative or not finite, or in fixed point of twice the torque that
     /// accelerates the load or more.
     impl[] AccelerationFeedbackConfig[], new, try_new(design: &GovernorDesign), |format| {
-        let ([], [feedback]) = get!(To::part(acceleration(design.acceleration, &format), ACCELERATION));
+        if !(design.acceleration >= 0.0 && all_finite(&[design.acceleration])) {
+            return Err(Error::Value(ACCELERATION));
+        }
+        let feedback = get!(To::coefficient(-design.acceleration / format.widened, ACCELERATION));
         Ok(AccelerationFeedbackConfig { feedback })
     }
-}
 
-constants! {
     /// [`Error::Coefficient`] for a gain that is not finite, or beyond fixed point.
     impl[] ActiveDampingConfig[], new, try_new(design: &SpeedLoopDesign), |format| {
-        let ([], [damping]) = get!(To::part(damping(design.damping, &format), GAIN));
-        Ok(ActiveDampingConfig { damping })
+        let damping = -design.damping * format.bases.speed / (format.bases.torque * format.gain);
+        if !damps_within_base(design.damping, &format) {
+            return Err(Error::Coefficient(GAIN));
+        }
+        if !all_finite(&[damping]) {
+            return Err(Error::Coefficient(NO_GAIN));
+        }
+        Ok(ActiveDampingConfig { damping: get!(To::coefficient(damping, GAIN)) })
     }
-}
 
-constants! {
     /// [`Error::Value`] for a torque (N m) that is not positive and finite, or beyond its base.
     impl[] SymmetricLimitConfig[], new, try_new(torque: f64), |format| {
-        let ([_, torque], []) = get!(To::part(between(0.0, torque, &format), LIMIT));
-        Ok(SymmetricLimitConfig { torque })
+        let [_, torque] = get!(between(0.0, torque, &format));
+        Ok(SymmetricLimitConfig { torque: get!(To::number(torque, LIMIT)) })
     }
-}
 
-constants! {
     /// [`Error::Value`] for torques (N m) that are not at most and above zero and finite, or beyond their base.
     impl[] TorqueRangeConfig[], new, try_new(min: f64, max: f64), |format| {
-        let ([min, max], []) = get!(To::part(between(min, max, &format), LIMIT));
+        let [min, max] = get!(To::numbers(get!(between(min, max, &format)), LIMIT));
         Ok(TorqueRangeConfig { min, max })
     }
-}
 
-constants! {
     /// [`Error::Value`] for limits out of order or beyond their bases, or a time of 2^31 ticks of `period` (s) or
     /// more.
     impl[] SequencerConfig[], new, try_new(settings: &SequencerSettings, period: f64), |format| {
-        let ([middle, half, centre, reach, shaft, standstill], []) = get!(To::part(windows(settings, &format), MODES));
+        let windows = get!(windows(settings, &format));
+        let [middle, half, centre, reach, shaft, standstill] = get!(To::numbers(windows, MODES));
         Ok(SequencerConfig {
             running: SpeedRange { middle, half },
             allowed: SpeedRange { middle: centre, half: reach },
@@ -303,15 +278,13 @@ constants! {
             start: get!(ticks(settings.start, period)),
         })
     }
-}
 
-constants! {
     /// Gains of a speed loop, as [`try_new`](Self::try_new) makes those of a governor.
     impl[] Gains[], of_speed_loop, try_of_speed_loop(design: &SpeedLoopDesign, settings: SpeedLoopSettings), |format| {
         let SpeedLoopDesign { proportional, integral, period, .. } = *design;
-        let ([ramp], [proportional, reset]) =
-            get!(To::part(gains(proportional, integral, period, settings, &format), GAIN));
-        Ok(Gains { proportional, reset, ramp })
+        let (law, ramp) = get!(gains(proportional, integral, period, settings, &format));
+        let [proportional, reset] = get!(To::coefficients(law, GAIN));
+        Ok(Gains { proportional, reset, ramp: get!(To::number(ramp, GAIN)) })
     }
 }
 
@@ -380,16 +353,13 @@ mod tests {
         }
     }
 
-    /// To the nearest tick, below 2^31 of them; a rated torque of zero has no droop.
+    /// To the nearest tick, below 2^31 of them.
     #[test]
-    fn limits_of_times_and_droop() {
+    fn limits_of_times() {
         assert_eq!([ticks(0.0, 1.0).ok(), ticks(1.4, 1.0).ok(), ticks(1.5, 1.0).ok()], [Some(0), Some(1), Some(2)]);
         assert_eq!(ticks(2_147_483_647.4, 1.0).ok(), Some(2_147_483_647));
         for (time, period) in [(2_147_483_647.5, 1.0), (-0.1, 1.0), (1.0, 0.0), (0.0, 0.0), (f64::NAN, 1.0)] {
             assert_eq!(ticks(time, period), Err(Error::Value(TIMES)), "{time} {period}");
-        }
-        for (speed, torque) in [(0.0, 1.0), (1.0, 0.0), (-1.0, -1.0)] {
-            assert!(droop(0.0, speed, torque, &Format::FLOAT).is_err(), "{speed} {torque}");
         }
     }
 }

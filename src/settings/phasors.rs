@@ -39,16 +39,14 @@ impl PhasorSettings {
         let beat = hertz / rotor_hertz - self.order as f64;
         let beat = if beat < 0.0 { -beat } else { beat };
         let (mut turns, mut least) = (self.turns, 1.0);
-        let mut candidate = self.turns;
-        while candidate <= 300 / self.order && least > 0.02 {
+        each!(candidate, (self.turns).., candidate <= 300 / self.order && least > 0.02, {
             let beats = candidate as f64 * beat;
             let off = beats - (beats + 0.5) as u32 as f64;
             let off = if off < 0.0 { -off } else { off };
             if beats > 0.5 && off < least {
                 (turns, least) = (candidate, off);
             }
-            candidate += 1;
-        }
+        });
         self.turns = turns;
         self
     }
@@ -121,15 +119,3 @@ phasors!(f32, 1e30, |limit| (limit * BELOW) as f32);
 phasors!(f64, 1e300, |limit| limit * BELOW);
 // a base is 2^28 units: of a small limit they round by more than that share
 phasors!(Fixed, 2.0, |limit| Fixed::from_f64((limit * BELOW - 2.0 / 268_435_456.0).max(0.0)));
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Periods are counted, of the vibration's order.
-    #[test]
-    fn a_block_is_counted_in_periods() {
-        let measured = PhasorSettings { order: 3, turns: 5, ..PhasorSettings::DIRECT };
-        assert_eq!(PhasorsConfig::<f64, 1>::new(&measured, [1.0]).block, 15);
-    }
-}

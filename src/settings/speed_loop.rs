@@ -49,9 +49,7 @@ constants! {
             filter: (),
         })
     }
-}
 
-constants! {
     /// [`Error::Value`] for a lag (s) that is not positive and finite, [`Error::Coefficient`] in fixed point for one
     /// of 1.44 ticks of `period` (s) or less.
     impl[] LagConfig[], new, try_new(lag: f64, period: f64), |_format| {

@@ -7,9 +7,6 @@ use super::settled::{settled, unit_single};
 use super::{Bases, Error, Format};
 use crate::number::{Coefficient, Fixed, INNOVATION_RANGE, TURN_SHIFT};
 
-/// Numbers and coefficients of a part, per unit of a format.
-pub(super) type Values<const N: usize, const C: usize> = Result<([f64; N], [f64; C]), Error>;
-
 /// Conversion to a number.
 pub(super) struct To<N>(PhantomData<N>);
 
@@ -23,6 +20,17 @@ macro_rules! float {
             /// A number, finite.
             pub(super) const fn number(value: f64, sentence: &'static str) -> Result<$float, Error> {
                 if (value as $float).is_finite() { Ok(value as $float) } else { Err(Error::Value(sentence)) }
+            }
+
+            pub(super) const fn numbers<const K: usize>(
+                values: [f64; K],
+                sentence: &'static str,
+            ) -> Result<[$float; K], Error> {
+                let mut out = [0.0; K];
+                each!(k, 0..K, {
+                    out[k] = get!(Self::number(values[k], sentence));
+                });
+                Ok(out)
             }
 
             /// A number within the headroom.
@@ -74,19 +82,6 @@ macro_rules! float {
                 get!(Self::coefficients($pair, sentence));
                 Self::coefficients($settled, sentence)
             }
-
-            /// Numbers and coefficients of a part.
-            pub(super) const fn part<const A: usize, const B: usize>(
-                values: Values<A, B>,
-                sentence: &'static str,
-            ) -> Result<([$float; A], [$float; B]), Error> {
-                let (numbers, coefficients) = get!(values);
-                let mut out = [0.0; A];
-                each!(k, 0..A, {
-                    out[k] = get!(Self::number(numbers[k], sentence));
-                });
-                Ok((out, get!(Self::coefficients(coefficients, sentence))))
-            }
         }
     };
 }
@@ -107,6 +102,14 @@ impl To<Fixed> {
     /// A number within twice its base.
     pub(super) const fn number(value: f64, sentence: &'static str) -> Result<Fixed, Error> {
         if value.abs() <= 2.0 { Ok(Fixed::from_f64(value)) } else { Err(Error::Value(sentence)) }
+    }
+
+    pub(super) const fn numbers<const K: usize>(values: [f64; K], sentence: &'static str) -> Result<[Fixed; K], Error> {
+        let mut out = [Fixed::from_bits(0); K];
+        each!(k, 0..K, {
+            out[k] = get!(Self::number(values[k], sentence));
+        });
+        Ok(out)
     }
 
     /// A number within the headroom.
@@ -151,19 +154,6 @@ impl To<Fixed> {
         let exact = [wide * pair[0], wide * pair[1], wide * pair[2], wide * pair[3]];
         let [a, b, c, d] = settled(exact, rounded, [unit; 4]);
         fixed([a / wide, b / wide, c / wide, d / wide], sentence)
-    }
-
-    /// Numbers and coefficients of a part.
-    pub(super) const fn part<const A: usize, const B: usize>(
-        values: Values<A, B>,
-        sentence: &'static str,
-    ) -> Result<([Fixed; A], [Coefficient; B]), Error> {
-        let (numbers, coefficients) = get!(values);
-        let mut out = [Fixed::from_bits(0); A];
-        each!(k, 0..A, {
-            out[k] = get!(Self::number(numbers[k], sentence));
-        });
-        Ok((out, get!(fixed(coefficients, sentence))))
     }
 }
 

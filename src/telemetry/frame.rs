@@ -53,7 +53,6 @@ impl Channel<'_> {
     }
 }
 
-/// The frame of a record.
 pub(super) fn record<E, const VALUES: usize>(
     record: &Record<VALUES>,
     write: impl FnMut(&[u8]) -> Result<(), E>,

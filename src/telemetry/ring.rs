@@ -11,9 +11,7 @@ use super::record::{MOST_VALUES, Record};
 // Not logged: a tick writes it while it is read.
 pub struct Ring<const VALUES: usize, const RECORDS: usize> {
     slots: [Slot<VALUES>; RECORDS],
-    /// Records kept so far.
     head: AtomicU32,
-    /// Records taken so far.
     tail: AtomicU32,
     /// Ticks recorded, kept or dropped.
     ticks: AtomicU32,

@@ -9,7 +9,6 @@ pub(crate) const RATIOS: usize = 6 << STEPS | 1;
 /// Most teeth that the wheel, or the part of it that repeats, may have.
 pub(crate) const MOST: usize = 128;
 
-/// A set of teeth.
 pub(crate) type Set = [u64; 2];
 
 /// Logarithm of an interval to base 2, in eighths: exact at powers of two, and at most 0.21 too low between them.

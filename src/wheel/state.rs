@@ -29,7 +29,6 @@ pub struct ToothedWheel<R = ()> {
     pub(super) interval: u32,
     pub(super) search: Search,
     pub(super) stage: Stage,
-    /// Good turns.
     pub(super) trust: u32,
     /// The last tooth, and its number in the cycle.
     pub(super) place: u32,
@@ -41,7 +40,6 @@ pub struct ToothedWheel<R = ()> {
     pub(super) extra: bool,
     /// The last edge is a tooth, with no edge too many before it.
     pub(super) firm: bool,
-    /// Good teeth in a row.
     pub(super) good: u32,
     pub(super) check: Check,
     /// Span of the last tooth that was checked.

@@ -201,7 +201,6 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Estimate<T, ROWS, PLANES
         self.level_from(&self.now, moved)
     }
 
-    /// The same from a reading.
     pub(super) fn level_from(&self, reading: &[Complex<T>], moved: &[Complex<T>; PLANES]) -> T {
         (0..self.rows).fold(T::zero(), |most, row| most.max(size(pick(reading, row, zero()) + self.change(row, moved))))
     }
@@ -300,7 +299,6 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Estimate<T, ROWS, PLANES
         self.cautious_from(&self.now)
     }
 
-    /// The same from a reading.
     fn cautious_from(&self, reading: &[Complex<T>; ROWS]) -> [Complex<T>; PLANES] {
         let mut qr = Qr::<T, PLANES>::new();
         for (row, now) in reading.iter().enumerate().take(self.rows) {

@@ -7,7 +7,6 @@ use crate::balancing::scalar::{Complex, Scalar, given, zero};
 #[derive(Clone, Copy, Debug, PartialEq)]
 // Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct Run<T: Scalar, const ROWS: usize> {
-    /// The readings.
     pub(crate) readings: [Complex<T>; ROWS],
     /// Speed of each (rad/s).
     pub(crate) speeds: [T; ROWS],

@@ -6,7 +6,6 @@
 
 use super::Matrix;
 
-/// Five by five.
 pub(super) type Square = [[f64; 5]; 5];
 
 pub(super) const UNIT: Square = [
@@ -20,29 +19,23 @@ pub(super) const UNIT: Square = [
 /// A matrix of this size; `None` for another.
 pub(super) const fn square<const N: usize>(matrix: &Matrix<N, N>) -> Option<Square> {
     let mut square = [[0.0; 5]; 5];
-    let mut i = 0;
-    while N == 5 && i < N {
+    each!(i, 0.., N == 5 && i < N, {
         match (&matrix.0[i] as &[f64]).first_chunk() {
             Some(row) => square[i] = *row,
             None => return None,
         }
-        i += 1;
-    }
+    });
     if N == 5 { Some(square) } else { None }
 }
 
 /// The same as a matrix of any size: the inverse of [`square`].
 pub(super) const fn matrix<const N: usize>(square: &Square) -> Matrix<N, N> {
     let mut matrix = Matrix::ZERO;
-    let mut i = 0;
-    while i < N && i < 5 {
-        let mut j = 0;
-        while j < N && j < 5 {
+    each!(i, 0.., i < N && i < 5, {
+        each!(j, 0.., j < N && j < 5, {
             matrix.0[i][j] = square[i][j];
-            j += 1;
-        }
-        i += 1;
-    }
+        });
+    });
     matrix
 }
 
