@@ -3,6 +3,5 @@
 mod angle;
 mod cam;
 mod edges;
-mod learnt;
 mod other_teeth;
 mod recordings;

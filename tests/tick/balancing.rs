@@ -238,6 +238,7 @@ fn settings_that_cannot_be() {
     assert_eq!(One::new(CONFIG, 2, [re(0.0)]).err(), Some(Error::Size));
     assert!(One::new(CONFIG, 1, [re(0.0)]).is_ok());
     let mut model = Influence::<f64, 1, 1>::new(1, 1).unwrap();
+    assert_eq!(begun(CONFIG, 0.0).with_model(&model, 0.1).err(), Some(Error::PlaneUnknown { plane: 0 }));
     model.set(0, &[re(-2.0)]).unwrap();
     for share in [0.0, -0.1, f64::NAN, f64::INFINITY] {
         assert_eq!(begun(CONFIG, 0.0).with_model(&model, share).err(), Some(Error::Setting { index: 0 }));

@@ -399,9 +399,9 @@ fn the_constants_of_a_governor() {
     }
     let of_loop = Gains::<f64>::try_of_speed_loop(&speed_loop(4.0, 50.0, 3.0), with_ramp(70.0), BASES).unwrap();
     assert_eq!(of_loop, si);
-    for proportional in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+    for proportional in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e39] {
         assert!(
-            Gains::<f64>::try_new(&governor(proportional, 50.0, 0.3), with_ramp(70.0), BASES).is_err(),
+            Gains::<f32>::try_new(&governor(proportional, 50.0, 0.3), with_ramp(70.0), BASES).is_err(),
             "{proportional}"
         );
     }
@@ -749,7 +749,9 @@ fn the_constants_of_screening_and_monitor() {
         assert_eq!(Limits::<f64>::try_new(&screening, BASES).is_ok(), is_right, "{frozen_turn}");
         assert_eq!(Limits::<Fixed>::try_new(&screening, BASES).is_ok(), is_right, "{frozen_turn}");
     }
-    for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+    // 1e43 is beyond `f32`
+    assert!(Limits::<f32>::try_new(&Screening { frozen_turn: 1e43, ..screening }, BASES).is_err());
+    for value in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e43] {
         for screening in [
             Screening { torque: value, ..screening },
             Screening { setpoint: value, ..screening },
@@ -782,11 +784,18 @@ fn the_constants_of_screening_and_monitor() {
         (0.0, 350.0, false),
         (-1.0, 350.0, false),
         (1e-46, 350.0, false),
+        (1e39, 1e40, false),
         (f64::NAN, 350.0, false),
         (15.0, f64::INFINITY, false),
     ] {
         let settings = ActuatorMonitorSettings { tolerance, max_torque, ..settings };
         assert_eq!(tried(1e-3, &settings), is_right, "{settings:?}");
+    }
+    assert!(!tried(1e-3, &ActuatorMonitorSettings { timeout: -1.0, ..settings }));
+    // in fixed point a lag of 1.44 ticks covers half its way in one
+    for (ticks, is_right) in [(1.44, false), (1.45, true)] {
+        let fixed = ActuatorMonitorConfig::<Fixed, 1>::try_new(&[ticks * PERIOD], &settings, PERIOD, BASES);
+        assert_eq!(fixed.is_ok(), is_right, "{ticks}");
     }
     for (places, is_right) in [(1.001, true), (0.999, false)] {
         let settings = ActuatorMonitorSettings { tolerance: places / UNIT * BASES.torque, ..settings };

@@ -61,31 +61,6 @@ fn home_is_the_best_where_it_is_better_beyond_doubt() {
     assert!(home(1.0, 0.1, 0.1, 0.5) && home(2.0, 0.1, 0.1, 1.5) && !home(2.0, 0.1, 0.1, 1.7));
 }
 
-/// Two and a half times as far as was read, or 0.6 over the influence's relative deviation.
-#[test]
-fn steps_reach_as_far_as_what_was_read_bears_out() {
-    let reachable = |share: f64, weight: f64, rest: f64, reach: f64, step: f64| {
-        let mut run = known(1.0, share);
-        (run.weights, run.rest, run.reach) = ([re(weight)], [re(rest)], reach);
-        run.reachable([re(step)])[0].re
-    };
-    assert!(near(reachable(0.3, 0.0, 0.0, 2.0, 8.0), 5.0));
-    assert!(near(reachable(0.1, 0.0, 0.0, 2.0, 18.0), 12.0));
-    // from 3 to 11 is 10 from where it began, at 1; it may be 5
-    assert!(near(reachable(0.3, 3.0, 1.0, 2.0, 8.0), 3.0));
-    assert!(near(reachable(0.3, 0.0, 0.0, 2.0, -4.0), -4.0) && near(reachable(0.3, 0.0, 0.0, 0.0, 8.0), 8.0));
-}
-
-#[test]
-fn a_step_is_within_the_limits() {
-    let within = |weight: f64, step: f64| {
-        let mut run = known(1.0, 0.1);
-        (run.config.step, run.config.limits, run.weights) = (2.0, [5.5], [re(weight)]);
-        run.within([re(step)])[0].re
-    };
-    assert!(near(within(0.0, 3.0), 2.0) && near(within(5.0, 1.0), 0.5) && near(within(0.0, -1.5), -1.5));
-}
-
 /// The influence of -0.5 foresees 0.5 after a weight of one, with a deviation of 0.05: what is beyond 0.2 of it is a
 /// surprise. The move was wrong where that is more than half of the foreseen change, and the vibration not much less.
 #[test]
@@ -162,35 +137,6 @@ fn a_surprise_of_an_influence_that_is_not_confirmed() {
     assert_eq!((run.failures, run.jumped), (1, false));
 }
 
-/// With an exact reading a change of four deviations is none, in numbers of few bits.
-#[test]
-fn four_deviations_are_no_surprise() {
-    let mut run = moved(-0.5, 0.125, 1.0);
-    learnt(&mut run, 0.75, 0.0);
-    assert!(!run.jumped && run.failures == 0);
-}
-
-/// What a reading is beside its prediction, beyond the prediction's own deviation and over the larger of two levels: a
-/// tenth less the deviation, at first, and then about a third of its square.
-#[test]
-fn readings_scatter() {
-    let scattered = |before: f64| {
-        let mut run = moved(-0.5, 0.1, 1.0);
-        run.scatter = before;
-        learnt(&mut run, 0.6, 1e-6);
-        run.scatter
-    };
-    let beyond = 0.1 - f64::sqrt(0.0025 + 1e-7);
-    assert!(near(scattered(0.0), beyond));
-    assert!(near(scattered(0.2), (0.04 * 0.65 + beyond * beyond * 0.35).sqrt()));
-    // nothing of a sensor that reads zero twice
-    let mut run = known(-0.5, 0.1);
-    run.estimate.restart(&[re(0.0)], 0.0);
-    run.level = 0.0;
-    learnt(&mut run, 0.0, 1e-6);
-    assert_eq!(run.scatter, 0.0);
-}
-
 /// A reading of known variance has that deviation, at whatever speed.
 #[test]
 fn a_reading_is_as_certain_as_it_says() {
@@ -199,34 +145,6 @@ fn a_reading_is_as_certain_as_it_says() {
         run.advise(&[re(1.0)], variance);
         assert!(near(deviation(&run), expected), "{variance}");
     }
-}
-
-/// A speed that explains nothing is not used: within 5 % of the first one, and beyond that where the reading is as
-/// predicted, it is as if it had not been given. Another reading at another speed teaches nothing; above the bound, which
-/// is twice the start, the head goes home.
-#[test]
-fn a_speed_is_used_where_it_explains_a_reading() {
-    let next = |reading: f64, speed: Option<f64>| {
-        let mut run = moved(-0.5, 0.1, 1.0);
-        run.speed = Some(100.0);
-        let action = match speed {
-            Some(speed) => run.advise_at(&[re(reading)], 0.0, speed),
-            None => run.advise(&[re(reading)], 0.0),
-        };
-        (action, run)
-    };
-    for (reading, speed) in [(0.5, 104.9), (1.9, 95.1), (2.5, 104.9), (0.55, 106.0), (0.45, f64::NAN)] {
-        assert_eq!(next(reading, Some(speed)), next(reading, None), "{reading} {speed}");
-    }
-    for (reading, to) in [(1.9, 1.0), (2.5, 0.0)] {
-        let (action, run) = next(reading, Some(106.0));
-        assert_eq!((action, run.estimate), (Action::Set([re(to)]), moved(-0.5, 0.1, 1.0).estimate));
-    }
-    // the first speed is one that was used
-    let mut run = One::new(CONFIG, 1, [re(0.0)]).unwrap();
-    run.advise_at(&[re(1.0)], 0.0, f64::NAN);
-    run.advise_at(&[re(1.0)], 0.0, 100.0);
-    assert_eq!((run.speed, run.start), (Some(100.0), Some(1.0)));
 }
 
 #[test]
@@ -278,28 +196,6 @@ fn a_machine_that_jumps_at_rest_is_identified_again() {
         assert_eq!((run.probes, run.aborted), (probes, Some(AbortReason::Unidentified)), "{reading}");
         assert!((probes > 0) ^ near(deviation(&run), 0.01), "{reading} {}", deviation(&run));
     }
-}
-
-/// After a move a level above the bound sends the head home once, and is given up the second time.
-#[test]
-fn a_level_above_the_bound_sends_the_head_home() {
-    let after = |influence: f64, reading: f64, failures: u32| {
-        let mut run = moved(influence, 0.5, 1.0);
-        run.failures = failures;
-        let action = run.advise(&[re(reading)], 0.0);
-        (action, run.failures)
-    };
-    assert_eq!(after(1.0, 2.0, 0).1, 0);
-    assert_eq!(after(1.0, 2.5, 0), (Action::Set([re(0.0)]), 1));
-    assert_eq!(after(1.0, 2.5, 1), (Action::Abort([re(0.0)], AbortReason::Diverging), 2));
-}
-
-#[test]
-fn the_reach_is_counted_from_where_it_began() {
-    let mut run = moved(-0.5, 0.1, 3.0);
-    (run.rest, run.reach) = ([re(1.0)], 0.0);
-    run.advise(&[re(-0.5)], 0.0);
-    assert_eq!(run.reach, 2.0);
 }
 
 /// A run that has seen no reading is not a resumed one.
@@ -383,17 +279,6 @@ fn probes_are_counted() {
         run.correct(1.0, 0.01);
         assert_eq!((run.probes, run.aborted), (probes + 1, expected));
     }
-}
-
-/// Two readings that differ, by two heads that do almost the same: the weights are large and of opposite sign, and four
-/// deviations of the influences could make it worse at any share, `|1 - 0.33 s| + 1.8 s`. So it is probed.
-#[test]
-fn a_correction_that_could_do_harm_is_not_made() {
-    let mut run = alike(0.1);
-    assert!(run.estimate.confirmed());
-    let Action::Set(to) = run.correct(1.0, 0.01) else { panic!() };
-    assert_eq!(run.probes, 1);
-    assert!(to.iter().filter(|to| **to != re(0.0)).count() == 1, "{to:?}");
 }
 
 /// The sentences of all four, each of its own.

@@ -27,21 +27,6 @@ fn blocks<const EDGES: usize>(growths: [[f32; 2]; EDGES]) -> ([Edge<f32, 1>; EDG
     (edges, config)
 }
 
-/// Four blocks along a line of slope r, and e beside it: e (1, -1, -1, 1) has no mean and no slope. Its variance is
-/// 4 e^2 over two, the sum of the places' squares is five.
-#[test]
-fn a_line_through_four_blocks() {
-    let (r, e) = (0.1, 0.01);
-    let block = |place: f32, beside: f32| [2.0 * (1.0 + r * place + e * beside), 0.0];
-    let values = [[0.0; 2], block(-1.5, 1.0), block(-0.5, -1.0), block(0.5, -1.0), block(1.5, 1.0)];
-    let (edges, config) = blocks(values);
-    let reading = Reading::between(&edges, 0, &config).unwrap();
-    // rounding of single precision, of sums of 25
-    assert!((reading.scatter - 2.0_f32.sqrt() * e).abs() < 1e-5, "{reading:?}");
-    assert!((reading.drift - 3.0 * (r - 3.0 * e * 0.4_f32.sqrt())).abs() < 1e-5, "{reading:?}");
-    assert_eq!((reading.turns, reading.ticks, reading.speed_spread), (4, 10.0, 0.0));
-}
-
 /// A tick of a tenth of a turn holds a sample for 36 degrees: e^{-ix} x/sin x, with x of 18.
 #[test]
 fn a_block_is_its_phasor() {
@@ -65,15 +50,6 @@ fn a_turn_begins_where_the_zero_lies() {
     edges[0].past = config.turning.turn / 20;
     // a unit of 2^26 on a turn
     assert!((Reading::between(&edges, 0, &config).unwrap().ticks - 10.5).abs() < 1e-5);
-}
-
-/// At an eighth of a turn x is 22.5 degrees, whose cotangent is 1 and the root of two.
-#[test]
-fn a_held_sample() {
-    let x = core::f32::consts::FRAC_PI_8;
-    let found = held(0.125);
-    // the terms left out, and rounding
-    assert!((found.re - x * (1.0 + core::f32::consts::SQRT_2)).abs() < 3e-7 && found.im == -x, "{found:?}");
 }
 
 /// An amplitude of a quarter of the floor counts a quarter of its scatter and drift of a fifth; zero has none.

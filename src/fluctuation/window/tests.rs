@@ -120,79 +120,6 @@ fn steady(cycles: u32, ticks: u32, speed: f64) -> Window<f64, 8> {
     Window { bins: [even(ticks / 8); 8], edges, cycles, forward: speed >= 0.0 }
 }
 
-/// The lateness is the integral of the slowness, by hand; what is beyond it alternates from bin to bin. The angle
-/// that it is counted from does not matter.
-#[test]
-fn the_residue_is_what_the_orders_leave() {
-    let mut slowness = Series::constant(1.0);
-    slowness.orders[0] = Order { cos: 0.1, sin: 0.05 };
-    slowness.orders[1] = Order { cos: -0.04, sin: 0.06 };
-    let late =
-        |theta: f64| 0.1 * theta.sin() - 0.05 * theta.cos() - 0.02 * (2.0 * theta).sin() - 0.03 * (2.0 * theta).cos();
-    let (total, apart) = (1e9, 0.01);
-    let mut window = steady(1, 8, 1.0);
-    let mut before = 0;
-    for (index, bin) in (1_u32..).zip(&mut window.bins) {
-        let theta = TAU * f64::from(index) / 8.0;
-        // none of it at the cycle's end
-        let left = if index % 2 == 0 { 0.0 } else { 2.0 * apart };
-        let counted = ((theta + late(theta) - late(TAU) + left) / TAU * total) as u32;
-        bin.ticks = counted - before;
-        before = counted;
-    }
-    // a tick of 10^9
-    let rms = TAU * window.left(&slowness, 2).rms();
-    assert!((rms - apart).abs() < TAU / total, "{rms}");
-    // a hundredth of a cycle of two turns, in every other bin: the mean and half of it either way
-    let mut window = steady(2, 8_000, 1.0);
-    for pair in window.bins.chunks_mut(2) {
-        (pair[0], pair[1]) = (even(920), even(1_080));
-    }
-    let ripple = window.ripple(&config(2, 1.0), 1).unwrap();
-    // a bin's squares are cut to whole units, of 4,096 to a square bin
-    assert!((ripple.quality.residue / (0.005 * 2.0 * TAU) - 1.0).abs() < 1e-3, "{ripple:?}");
-}
-
-/// A speed against the mean at any end; twelve ticks to a segment, and 72 to a turn in few cycles.
-#[test]
-fn windows_that_cannot_be_used() {
-    for sign in [1.0, -1.0] {
-        let ripple = steady(2, 8_000, sign).ripple(&config(1, 1.0), 1).unwrap();
-        assert!((ripple.mean / (sign * TAU / 40.0) - 1.0).abs() < 1e-12, "{ripple:?}");
-        for edge in 0..4 {
-            for (speed, error) in [(0.0, None), (-1e-9 * sign, Some(Unusable::Trend))] {
-                let mut window = steady(2, 8_000, sign);
-                window.edges[edge].speed = speed;
-                assert_eq!(window.ripple(&config(1, 1.0), 1).err(), error, "{edge} {speed}");
-            }
-        }
-    }
-    for (turns, cycles, ticks, is_right) in [
-        (1, 2, 144, true),
-        (1, 2, 143, false),
-        (1, 7, 504, true),
-        (1, 7, 503, false),
-        (1, 8, 384, true),
-        (1, 8, 383, false),
-        (2, 8, 1_152, true),
-        (2, 8, 1_151, false),
-    ] {
-        let found = steady(cycles, ticks, 1.0).ripple(&config(turns, 1.0), 1);
-        assert_eq!(found.err(), (!is_right).then_some(Unusable::Ticks), "{turns} {cycles} {ticks}");
-    }
-}
-
-/// With `slowness` 2 and an order of `sin(theta)/2` the mean is longer by 1, and order 1 has -2 j by itself and
-/// -1/4 by half of the order at 2 theta. An order is twice its integral over the mean's.
-#[test]
-fn a_trend_shows_in_every_order() {
-    let ramp = Ramp { slowness: 5.0, slope: 3.0, ..Ramp::default() };
-    assert_eq!([0.0, 1.0, 2.0, -2.0].map(|k| ramp.integral(k)), [(0.0, 0.0), (3.0, -5.0), (0.75, -2.5), (0.75, 2.5)]);
-    let ramp = Ramp { slowness: 2.0, ..Ramp::default() };
-    let found = ramp.taken_off(&of(0.0, 0.5), &of(4.75, 3.0), 9.0, 1);
-    assert_eq!((found.mean, found.order(1)), (1.0, Order { cos: 1.0, sin: 1.0 }));
-}
-
 /// The mean of a sine over a bin is that of its ends' integral. A bin without a tick has the torque of the one
 /// before it, the first that of the last.
 #[test]
@@ -234,21 +161,5 @@ fn extremes_are_within_the_cycle() {
         let angle = ripple(-0.1 * cos, -0.1 * sin).motor.max.angle;
         // Newton's method ends within rounding of a turn
         assert!((angle - expected).abs() < 1e-14, "{phase}: {angle}");
-    }
-}
-
-/// A flywheel where delta is more than permissible, a governor where the drift is more than so much of the mean.
-#[test]
-fn remedies_are_for_what_is_beyond_the_limits() {
-    use crate::fluctuation::flywheel::Remedy;
-    let mut ripple = ripple(0.1, 0.0);
-    for (delta, acceleration, expected) in [
-        (0.25, 2.5, Remedy::Nothing),
-        (0.26, 2.5, Remedy::Flywheel),
-        (0.25, -2.6, Remedy::Governor),
-        (0.26, 2.6, Remedy::Both),
-    ] {
-        (ripple.motor.delta, ripple.acceleration, ripple.mean) = (delta, acceleration, -10.0);
-        assert_eq!(ripple.remedy(0.25, 0.25), expected, "{delta} {acceleration}");
     }
 }

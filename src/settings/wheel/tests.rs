@@ -57,28 +57,3 @@ fn even_teeth_and_wide_gaps() {
         assert_eq!(fitting(&octave, octaves), expected, "{octaves}");
     }
 }
-
-#[test]
-fn missing_places_rise() {
-    for (missing, are_right) in [
-        (&[] as &[u32], true),
-        (&[0], true),
-        (&[4], true),
-        (&[5], false),
-        (&[1, 3], true),
-        (&[3, 3], false),
-        (&[3, 1], false),
-        (&[0, 2, 1], false),
-        (&[0, 2, 5], false),
-    ] {
-        assert_eq!(rise(5, missing), are_right, "{missing:?}");
-    }
-}
-
-#[test]
-fn a_wheel_with_one_tooth_more() {
-    let teeth = Teeth::<5>::extra(4, 300.0);
-    assert_eq!(teeth, Teeth::degrees([0.0, 90.0, 180.0, 270.0, 300.0]));
-    let teeth = Teeth::<5>::extra(4, 100.0);
-    assert_eq!(teeth, Teeth::degrees([0.0, 90.0, 100.0, 180.0, 270.0]));
-}

@@ -9,8 +9,8 @@ use driveline::balancing::{
 use driveline::configure::{Configure, HasVibration, Machine, Rating};
 use driveline::design::Encoder;
 use driveline::machine::{Chain, Damping, Inertia, Speed, Stiffness, Torque};
-use driveline::number::{Fixed, Number};
-use driveline::settings::{PhasorError, PhasorSettings};
+use driveline::number::Fixed;
+use driveline::settings::PhasorSettings;
 
 use super::noise::Noise;
 
@@ -561,22 +561,6 @@ fn a_sensor_that_cannot_be_is_refused() {
     let nothing = Phasor { re: f32::NAN, im: 0.0 };
     assert_eq!(said(sound, nothing, 100.0), "the sensor's phasor is not a number");
     assert!(sound.motion(volts, 100.0, Motion::Acceleration).is_ok());
-}
-
-#[test]
-fn a_measurement_that_cannot_be_is_refused() {
-    type Config = PhasorsConfig<f32, 1>;
-    let of = |measured| Config::try_new(&measured, [1.0]).map(|_| ());
-    assert_eq!(of(PhasorSettings { motor_turns: 0, ..CALM }), Err(PhasorError::Ratio));
-    assert_eq!(of(PhasorSettings { rotor_turns: 16, ..CALM }), Err(PhasorError::Ratio));
-    assert_eq!(of(PhasorSettings { order: 0, ..CALM }), Err(PhasorError::Ratio));
-    assert_eq!(of(PhasorSettings { turns: 0, ..CALM }), Err(PhasorError::Turns));
-    assert_eq!(of(PhasorSettings { turns: 301, ..CALM }), Err(PhasorError::Turns));
-    assert_eq!(Config::try_new(&CALM, [f64::NAN]).map(|_| ()), Err(PhasorError::Limit));
-    assert_eq!(PhasorsConfig::<Fixed, 1>::try_new(&CALM, [2.5]).map(|_| ()), Err(PhasorError::Limit));
-    assert!(of(PhasorSettings { rotor_turns: -15, ..CALM }).is_ok());
-    let _ = Steadiness::USUAL;
-    let _ = <f32 as Number>::ZERO;
 }
 
 /// Two channels and two orders at once, as a drive composes them.

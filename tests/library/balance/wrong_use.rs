@@ -1,6 +1,6 @@
 //! Each wrong use of balancing, with its own sentence, and nothing lost of what was entered before.
 
-use driveline::balancing::{Complex, Entry, Error, Plan, Procedure, Run};
+use driveline::balancing::{Complex, Error, Plan, Procedure, Run};
 
 type Field = Procedure<f64, 4, 2>;
 
@@ -57,20 +57,4 @@ fn every_wrong_use_has_its_own_sentence_and_loses_nothing() {
         field.trial(plane, z(1.0, 0.0), &Run::new(run, &[155.0; 2]).unwrap()).unwrap();
     }
     assert_eq!(field.correction().unwrap_err().to_string(), planes);
-}
-
-/// The same eight phases in radians and in degrees.
-#[test]
-fn phases_in_radians_are_told() {
-    let phases = [4.154_f64, 5.166, 1.99, 6.056, 1.379, 5.096, 0.5, 3.1];
-    let entered = |of: fn(f64) -> f64| {
-        let mut entry = Entry::new();
-        phases.iter().for_each(|phase| {
-            entry.polar(1.0, of(*phase));
-        });
-        entry.check()
-    };
-    let said = entered(|phase| phase).unwrap_err().to_string();
-    assert_eq!(said, "all phases are below 2 pi: they seem to be in radians, and degrees are expected");
-    assert_eq!(entered(f64::to_degrees), Ok(()));
 }

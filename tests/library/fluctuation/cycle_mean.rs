@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use driveline::fluctuation::{CycleMean, CycleMeanConfig, Fluctuation};
 use driveline::number::{Fixed, Number};
 use driveline::sample::Estimate;
-use driveline::settings::{Bases, Cycle, Error};
+use driveline::settings::{Bases, Cycle};
 
 use super::motion::{Motion, Part};
 use super::rig::PERIOD;
@@ -197,21 +197,4 @@ fn a_mean_takes_a_stroke_of_at_most_four_million_ticks() {
         });
         assert_eq!(first.is_some(), is_there, "{ticks}: {first:?}");
     }
-}
-
-#[test]
-fn cycles_that_cannot_be_are_refused() {
-    let turn = Cycle::TURN;
-    let of = |error: Result<CycleMeanConfig<f32>, Error>| error.unwrap_err().to_string();
-    assert!(
-        of(CycleMeanConfig::<f32>::try_new::<3>(turn, PERIOD, Bases::SI)).contains("a power of two from 4 to 1024")
-    );
-    assert!(of(CycleMeanConfig::<f32>::try_new::<32>(STROKE, PERIOD, Bases::SI)).contains("a quarter of a turn"));
-    assert!(of(CycleMeanConfig::<f32>::try_new::<64>(turn, 0.0, Bases::SI)).contains("the time between two ticks"));
-    assert!(
-        of(CycleMeanConfig::<f32>::try_new::<64>(Cycle { turns: 0, cycles: 1 }, PERIOD, Bases::SI))
-            .contains("at least 1")
-    );
-    let slow = CycleMeanConfig::<Fixed>::try_new::<64>(turn, 1e-6, Bases::rigid(1.0, 0.01)).unwrap_err();
-    assert!(slow.to_string().contains("turns too little in a tick"), "{slow}");
 }

@@ -63,18 +63,3 @@ proptest! {
         prop_assert!((switched - stayed).abs() < 2.0 * 0.04 * 150.0, "{last} {stayed} {switched}");
     }
 }
-
-/// A turning machine is taken over at the speed and torque that it has.
-#[test]
-fn it_starts_from_the_speed_and_torque_that_there_are() {
-    for (droop, share) in [(0.0, 0.0), (0.04, 0.0), (0.0, 0.9), (0.04, 0.9)] {
-        let config = config(2.5, droop, share);
-        let mut governor = Switched::default();
-        let now = Estimate { motor_speed: 140.0, load_torque: 900.0, ..Estimate::default() };
-        governor.start(&config, &now, 1200.0);
-        governor.set_setpoint(140.0);
-        // The ramp's first step, at k_p: with droop the setpoint stands above the speed.
-        let torque = governor.command(&config, &now);
-        assert!((torque - 1200.0).abs() <= 0.02 * 140.0, "{droop} {share}: {torque}");
-    }
-}

@@ -5,11 +5,10 @@ use driveline::configure::Machine as _;
 use driveline::design::{
     Disturbance, Encoder, Rate, RigidDesign, SpeedLoopDesign, StepChoice, TorqueCurve, TwoMassDesign,
 };
-use driveline::drive::Limits;
 use driveline::governor::{CurveConfig, SpeedLoopConfig};
 use driveline::machine::{Chain, Damping, Error as MachineError, Inertia, Match, Rigid, Stiffness};
-use driveline::observer::{GearedConfig, RigidConfig, SemiImplicitConfig, TwoMassConfig};
-use driveline::settings::{Bases, Error, Gear, Screening, SpeedLoopSettings};
+use driveline::observer::{RigidConfig, SemiImplicitConfig, TwoMassConfig};
+use driveline::settings::{Bases, Error, SpeedLoopSettings};
 
 const TWO_MASS: TwoMassDesign = Hoist::<10_000>::OBSERVER;
 const RIGID: RigidDesign = Hoist::<10_000>::RIGID_OBSERVER;
@@ -41,20 +40,6 @@ fn observers_whose_gains_a_float_does_not_hold_are_refused() {
 }
 
 #[test]
-fn limits_that_a_float_does_not_hold_are_refused() {
-    let good = Hoist::<10_000>::SCREENING;
-    for bad in [
-        Screening { torque: LARGE, ..good },
-        Screening { setpoint: LARGE, ..good },
-        Screening { innovation: LARGE, ..good },
-        Screening { frozen_turn: LARGE, ..good },
-        Screening { frozen_turn: f64::NAN, ..good },
-    ] {
-        assert!(matches!(Limits::<f32>::try_new(&bad, SI), Err(Error::Value(_))), "{bad:?}");
-    }
-}
-
-#[test]
 fn a_speed_loop_that_a_float_does_not_hold_is_refused() {
     let settings = SpeedLoopSettings { torque_limit: 1_350.0, ramp: 77.5 };
     for bad in [
@@ -76,13 +61,6 @@ fn a_torque_curve_that_a_float_does_not_hold_is_refused() {
         assert!(CurveConfig::<f32, 2>::try_new(&curve, 0.0, SI).is_err(), "{points:?}");
         assert!(CurveConfig::<f64, 2>::try_new(&curve, 0.0, SI).is_ok(), "{points:?}");
     }
-}
-
-#[test]
-fn a_gear_that_a_float_does_not_hold_is_refused() {
-    let observer = RigidConfig::<f32>::new(&RIGID, 0.5, SI);
-    let gear = Gear { efficiency: 0.94, inertia: LARGE, deadband: 0.0 };
-    assert!(matches!(GearedConfig::<f32, _>::try_new(observer, &gear, 1e-4, SI), Err(Error::Value(_))));
 }
 
 #[test]

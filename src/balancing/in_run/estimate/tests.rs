@@ -128,20 +128,6 @@ fn a_cautious_change_is_at_the_least_of_the_expected_square() {
     }
 }
 
-/// A model whose largest coefficients are 5 and 2, known to a tenth; one without a plane is refused.
-#[test]
-fn a_model_is_adopted() {
-    let mut model = Influence::<f64, 3, 2>::new(2, 2).unwrap();
-    model.set(0, &[Complex { re: 3.0, im: 4.0 }, re(1.0)]).unwrap();
-    assert_eq!(Two::new(2).adopt(&model, 0.1), Err(Error::PlaneUnknown { plane: 1 }));
-    model.set(1, &[re(1.0), re(-2.0)]).unwrap();
-    let mut estimate = Two::new(2);
-    estimate.adopt(&model, 0.1).unwrap();
-    assert!((estimate.deviation(0) - 0.5).abs() < 1e-15 && (estimate.deviation(1) - 0.2).abs() < 1e-15);
-    assert_eq!((estimate.influence(0, 0), estimate.influence(1, 1)), (Complex { re: 3.0, im: 4.0 }, re(-2.0)));
-    assert!(estimate.confirmed() && !estimate.begin(1.0));
-}
-
 /// Coefficients of 5 and 2.
 fn known(deviations: [f64; 2]) -> Two {
     let mut estimate = Two::new(2);
@@ -218,15 +204,4 @@ fn a_move_confirms() {
         let found = confirm([0.0, 1.0], 9.0, 9.0, deviations).1;
         assert!((found[0] - then[0]).abs() < 1e-15 && (found[1] - then[1]).abs() < 1e-15, "{found:?}");
     }
-}
-
-/// The third reading is not in use, nor are more of them than there are rows.
-#[test]
-fn only_the_readings_in_use_count() {
-    let mut estimate = known([0.1, 0.1]);
-    estimate.restart(&[re(1.0), re(-2.0), re(100.0)], 0.1);
-    assert_eq!((estimate.level(), estimate.now[2]), (2.0, re(0.0)));
-    assert_eq!(estimate.level_after(&[re(-1.0), re(-1.0)]), 4.0);
-    assert_eq!(estimate.largest_change(&[re(-1.0), re(-1.0)]), 5.0);
-    assert_eq!(estimate.innovation(&[re(1.0), re(1.0), re(7.0)], 0.0).largest, 3.0);
 }
