@@ -44,7 +44,6 @@
 //! ```
 //!
 //! - [`Chain`] describes, [`Plant`] runs, [`MotorLaw`] and [`LoadProgram`] excite, [`Event`] reports;
-//! - [`modes`] finds natural frequencies, of branched and geared systems too;
 //! - [`converge`] proves a run with another integrator.
 
 mod chain;
@@ -58,7 +57,6 @@ mod extremes;
 mod guard;
 mod layout;
 mod mode;
-pub mod modes;
 mod reading;
 mod regime;
 mod root;

@@ -1,6 +1,6 @@
 //! Values that commissioning has to identify.
 
-use driveline_solver::plant::modes::{System, SystemError};
+use driveline_solver::plant::train::{Coordinate, Link, Train};
 
 /// Values to identify.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,27 +13,27 @@ impl Truth {
     /// Of a chain of inertias, stiffnesses and dampings, all at the motor: first resonance and first antiresonance of
     /// the whole chain, and the two masses that have them and the same sum.
     pub fn of(inertia: &[f64], stiffness: &[f64], damping: &[f64]) -> Self {
-        let least = |found: Result<Vec<f64>, SystemError>| {
-            let found = found.unwrap_or_default().into_iter().filter(|w| *w > 1.0e-3);
-            found.fold(f64::INFINITY, f64::min)
+        let least = |train: &Train| {
+            let found = train.modes().map_or(Vec::new(), |modes| modes.omega);
+            found.into_iter().filter(|w| *w > 1.0e-3).fold(f64::INFINITY, f64::min)
         };
+        let rotors =
+            |inertia: &[f64]| inertia.iter().fold(Train::new(), |train, j| train.coordinate(Coordinate::new(*j)));
         let shafts = || stiffness.iter().zip(damping).enumerate();
-        let free = shafts().fold(System::new(inertia), |system, (s, (k, d))| system.shaft(s, s + 1, *k, *d));
+        let free =
+            shafts().fold(rotors(inertia), |train, (s, (k, d))| train.link(Link::shaft(s, s + 1, *k).damping(*d)));
         // The motor locked: its shaft goes to the ground.
-        let held = shafts().fold(System::new(&inertia[1..]), |system, (s, (k, d))| match s {
-            0 => system.ground(0, *k, *d),
-            _ => system.shaft(s - 1, s, *k, *d),
+        let held = shafts().fold(rotors(&inertia[1..]), |train, (s, (k, _))| match s {
+            0 => train.link(Link::ground(0, *k)),
+            _ => train.link(Link::shaft(s - 1, s, *k)),
         });
-        let resonance = least(free.frequencies());
-        let antiresonance = least(held.frequencies());
+        let resonance = least(&free);
+        let antiresonance = least(&held);
         let total: f64 = inertia.iter().sum();
         let motor = total * (antiresonance / resonance).powi(2);
         let load = total - motor;
-        // Of the slowest swing: the real part over the size of its eigenvalue.
-        let swings =
-            free.damped_eigenvalues().unwrap_or_default().into_iter().filter(|(_, im)| *im > 1.0e-3 * resonance);
-        let slowest = swings.fold((0.0, f64::INFINITY), |a, b| if b.1 < a.1 { b } else { a });
-        let ratio = -slowest.0 / slowest.0.hypot(slowest.1);
+        let swings = free.decays().unwrap_or_default().into_iter().filter(|swing| swing.omega > 1.0e-3 * resonance);
+        let ratio = swings.min_by(|a, b| a.omega.total_cmp(&b.omega)).map_or(0.0, |slowest| slowest.damping_ratio());
         let stiffness = load * antiresonance * antiresonance;
         let damping = 2.0 * ratio * resonance * motor * load / total;
         let nothing = f64::NAN;

@@ -46,7 +46,6 @@ mod coupling;
 mod crank;
 mod event;
 mod friction;
-mod gear_pair;
 mod leap;
 mod link;
 mod linkage;
@@ -74,7 +73,6 @@ mod varying;
 
 pub use crank::Crank;
 pub use friction::Friction;
-pub use gear_pair::{GearBody, GearPair};
 pub use link::Link;
 pub use linkage::{FourBar, Orders, Toggle};
 pub use mesh::{Harmonic, Teeth, Variation, Zone};

@@ -5,7 +5,6 @@ mod absorber;
 mod against_chain;
 mod contact;
 mod crank;
-mod gear_pair;
 mod linear;
 mod linkage;
 mod losses;
