@@ -43,35 +43,26 @@
 //! # Ok::<(), driveline_solver::plant::PlantError>(())
 //! ```
 //!
-//! - [`Chain`] describes, [`Plant`] runs, [`MotorLaw`] and [`LoadProgram`] excite, [`Event`] reports;
+//! - [`Chain`] describes, [`Plant`] runs it as the [train](train) that it is, [`train::Source`] and [`LoadProgram`] excite,
+//!   [`Event`] reports;
 //! - [`converge`] proves a run with another integrator.
 
 mod chain;
 pub mod converge;
-mod dense;
 mod error;
 mod event;
 mod excitation;
-mod exponential;
 mod extremes;
-mod guard;
-mod layout;
-mod mode;
-mod reading;
-mod regime;
+mod propagator;
 mod root;
 mod shaft;
-mod solver;
-mod stepping;
-mod taylor;
 pub mod train;
 pub mod vibration;
-mod watch;
 
 pub use chain::{Chain, Start};
 pub use error::PlantError;
 pub use event::{Event, EventKind, Place};
-pub use excitation::{LoadProgram, MotorLaw};
+pub use excitation::LoadProgram;
 pub use extremes::Extremes;
 pub use shaft::Shaft;
-pub use solver::Plant;
+pub use train::plant::Plant;

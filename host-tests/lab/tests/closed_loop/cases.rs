@@ -1,5 +1,4 @@
 //! Published and made-up cases that are stiff or extreme.
 
-mod backlash;
 mod machine_modes;
 mod mesh;

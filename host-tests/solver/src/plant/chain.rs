@@ -3,8 +3,9 @@
 
 use super::error::{PlantError, finite, in_range, not_negative, positive};
 use super::event::Place;
-use super::excitation::{LoadProgram, MotorLaw};
+use super::excitation::LoadProgram;
 use super::shaft::Shaft;
+use super::train::Source;
 
 /// One inertia and what acts on it.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,16 +17,21 @@ pub(super) struct Node {
     pub efficiency: f64,
     /// With the shaft behind driving.
     pub back_efficiency: f64,
-    pub program: Option<LoadProgram>,
+    /// Torques beside, positive in the positive direction.
+    pub sources: Vec<Source>,
 }
 
 impl Node {
     fn new(inertia: f64) -> Self {
-        Self { inertia, viscous: 0.0, coulomb: 0.0, load: 0.0, efficiency: 1.0, back_efficiency: 1.0, program: None }
-    }
-
-    pub fn is_lossy(&self) -> bool {
-        self.efficiency < 1.0 || self.back_efficiency < 1.0
+        Self {
+            inertia,
+            viscous: 0.0,
+            coulomb: 0.0,
+            load: 0.0,
+            efficiency: 1.0,
+            back_efficiency: 1.0,
+            sources: Vec::new(),
+        }
     }
 }
 
@@ -46,14 +52,13 @@ pub struct Chain {
     pub(super) nodes: Vec<Node>,
     pub(super) shafts: Vec<Shaft>,
     pub(super) start: Start,
-    pub(super) law: MotorLaw,
 }
 
 impl Chain {
     /// Begins with the motor's inertia, kg m2, above zero.
     #[must_use]
     pub fn motor(inertia: f64) -> Self {
-        Self { nodes: vec![Node::new(inertia)], shafts: Vec::new(), start: Start::Rest, law: MotorLaw::Held }
+        Self { nodes: vec![Node::new(inertia)], shafts: Vec::new(), start: Start::Rest }
     }
 
     /// Goes on by a shaft to the next inertia, kg m2, above zero.
@@ -85,7 +90,7 @@ impl Chain {
     /// Load program of the last node, added to its constant load.
     #[must_use]
     pub fn program(self, program: LoadProgram) -> Self {
-        self.last(|node| node.program = Some(program))
+        self.last(|node| node.sources.push(Source::Program(program.negated())))
     }
 
     /// Efficiency, above 0 and up to 1, of a gear at the last node, between it and the shaft that follows. The node
@@ -110,10 +115,10 @@ impl Chain {
         self
     }
 
-    /// The motor's own law, beside the held torque.
+    /// The motor's own torque, beside the held one.
     #[must_use]
-    pub fn motor_law(mut self, law: MotorLaw) -> Self {
-        self.law = law;
+    pub fn motor_law(mut self, law: Source) -> Self {
+        self.nodes[0].sources.push(law);
         self
     }
 
@@ -144,14 +149,11 @@ impl Chain {
             for (name, eta) in [("efficiency", eta), ("back efficiency", back)] {
                 in_range(name, place, eta, has_shaft || eta == 1.0, "a shaft behind the gear")?;
             }
-            if let Some(program) = &node.program {
-                program.validate(place)?;
-            }
+            node.sources.iter().try_for_each(|source| source.validate(place))?;
         }
         for (s, shaft) in self.shafts.iter().enumerate() {
             shaft.validate(s)?;
         }
-        self.law.validate()?;
         self.start.validate(self)
     }
 }
@@ -239,7 +241,8 @@ fn carried_torques(chain: &Chain, speed: f64) -> Vec<f64> {
     let mut behind = 0.0;
     for s in (0..chain.shafts.len()).rev() {
         let node = &chain.nodes[s + 1];
-        let program = node.program.as_ref().map_or(0.0, |program| program.at(0.0).0);
+        let program = |source: &Source| if let Source::Program(program) = source { -program.at(0.0).0 } else { 0.0 };
+        let program: f64 = node.sources.iter().map(program).sum();
         let through = match direction * behind {
             power if power > 0.0 => behind / node.efficiency,
             power if power < 0.0 => behind * node.back_efficiency,

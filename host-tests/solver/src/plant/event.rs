@@ -35,8 +35,6 @@ pub enum EventKind {
     Reversal,
     /// The torque behind a lossy gear changed its sign to `new`.
     Flow,
-    /// The motor's law came to a corner; `new` = 0.
-    MotorLaw,
     /// More than a thousand events in one tick: the rest of the tick was run without any; `new` = 0.
     Unresolved,
 }

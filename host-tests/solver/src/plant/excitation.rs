@@ -1,74 +1,7 @@
-//! Excitations of a plant: laws of the motor, programs of the load.
+//! Programs of the load.
 
-use super::error::{PlantError, finite, positive};
+use super::error::{PlantError, finite};
 use super::event::Place;
-
-/// Torque of the motor in a stand-alone run, added to the torque held by [`crate::plant::Plant::advance`].
-/// `[Wang 1989 §1-2]`, `[Huang 1987 §2.2]`. Time is the plant's.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum MotorLaw {
-    /// Nothing but the held torque.
-    #[default]
-    Held,
-    /// A constant torque, N m.
-    Constant(f64),
-    /// Soft start `torque (1 - t/time)` for `t < time`, zero afterwards.
-    Ramp {
-        /// At the start, N m.
-        torque: f64,
-        /// Starting time, s, above zero.
-        time: f64,
-    },
-    /// Linear characteristic `stall - slope w` `[Wang 1989 (1-6)]`.
-    Line {
-        /// At standstill, N m.
-        stall: f64,
-        /// Fall with speed, N m s/rad.
-        slope: f64,
-    },
-}
-
-impl MotorLaw {
-    /// Torque at standstill at `time`, N m, and its rate, N m/s.
-    pub(super) fn torque(&self, time: f64) -> (f64, f64) {
-        match *self {
-            MotorLaw::Held => (0.0, 0.0),
-            MotorLaw::Constant(torque) => (torque, 0.0),
-            MotorLaw::Ramp { torque, time: end } if time < end => (torque * (1.0 - time / end), -torque / end),
-            MotorLaw::Ramp { .. } => (0.0, 0.0),
-            MotorLaw::Line { stall, .. } => (stall, 0.0),
-        }
-    }
-
-    /// Fall of the torque with speed, N m s/rad.
-    pub(super) fn slope(&self) -> f64 {
-        if let MotorLaw::Line { slope, .. } = *self { slope } else { 0.0 }
-    }
-
-    /// The next corner after `time`, s.
-    pub(super) fn corner_after(&self, time: f64) -> Option<f64> {
-        match *self {
-            MotorLaw::Ramp { time: end, .. } if end > time => Some(end),
-            _ => None,
-        }
-    }
-
-    pub(super) fn validate(&self) -> Result<(), PlantError> {
-        let motor = Place::Node(0);
-        match *self {
-            MotorLaw::Held => Ok(()),
-            MotorLaw::Constant(torque) => finite("motor torque", motor, torque),
-            MotorLaw::Ramp { torque, time } => {
-                finite("motor torque", motor, torque)?;
-                positive("starting time", motor, time)
-            }
-            MotorLaw::Line { stall, slope } => {
-                finite("motor torque", motor, stall)?;
-                finite("slope of the motor's characteristic", motor, slope)
-            }
-        }
-    }
-}
 
 /// Load torque of a node against time, added to its constant load. Positive torque opposes positive speed.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,6 +22,12 @@ impl LoadProgram {
     #[must_use]
     pub fn table(points: &[(f64, f64)]) -> Self {
         Self { points: points.to_vec(), linear: true }
+    }
+
+    /// The same torques the other way.
+    pub(super) fn negated(mut self) -> Self {
+        self.points.iter_mut().for_each(|point| point.1 = -point.1);
+        self
     }
 
     /// Torque at `time`, N m, and its rate to the right, N m/s.

@@ -44,23 +44,9 @@ impl Shaft {
         self
     }
 
-    /// Whether the shaft carries torque of either sign at every twist.
-    pub(super) fn is_linear(&self) -> bool {
-        !self.rope && self.gap == 0.0
-    }
-
     /// The twist at which the torque of this contact is zero at rest, rad.
     pub(super) fn origin(&self, contact: i8) -> f64 {
         if self.rope { self.gap } else { 0.5 * self.gap * f64::from(contact.signum()) }
-    }
-
-    /// The twist at which the new shaft carries the elastic torque that this one carries at a twist, in this contact.
-    pub(super) fn wound(&self, new: &Self, contact: i8, twist: f64) -> f64 {
-        if contact == 0 && !self.is_linear() {
-            return twist;
-        }
-        let origin = self.origin(contact);
-        origin + (twist - origin) * self.stiffness / new.stiffness
     }
 
     pub(super) fn validate(&self, shaft: usize) -> Result<(), PlantError> {

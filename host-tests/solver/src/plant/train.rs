@@ -53,6 +53,7 @@ mod mesh;
 mod modes;
 mod motion;
 mod pins;
+pub(super) mod plant;
 mod rank;
 mod reading;
 mod rigid;
@@ -276,6 +277,26 @@ impl Train {
     pub fn unbalance(mut self, unbalance: Unbalance) -> Self {
         self.unbalances.push(unbalance);
         self
+    }
+
+    /// Gives a coordinate so much dry friction against the ground: which friction that is, and whether it is a new one,
+    /// 1, or one that is gone, -1.
+    fn rub(&mut self, at: usize, torque: f64) -> (usize, i8) {
+        match self.ground_friction(at) {
+            None if torque == 0.0 => (0, 0),
+            None => {
+                self.frictions.push(Friction::ground(at, torque));
+                (self.frictions.len() - 1, 1)
+            }
+            Some(s) if torque == 0.0 && self.frictions[s].losses.is_empty() => {
+                self.frictions.remove(s);
+                (s, -1)
+            }
+            Some(s) => {
+                (self.frictions[s].kinetic, self.frictions[s].breakaway) = (torque, torque);
+                (s, 0)
+            }
+        }
     }
 
     fn validate(&self) -> Result<(), PlantError> {

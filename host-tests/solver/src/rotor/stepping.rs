@@ -15,6 +15,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 
 use super::modal::Modal;
 use super::spin::Turn;
+use crate::exponential::exponential;
 
 /// Instants of the tick at which the force is taken, as shares.
 pub(super) const INSTANTS: [f64; 4] = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0];
@@ -120,23 +121,6 @@ fn step(modal: &Modal, speed: f64, h: f64) -> Step {
         }
     }
     step
-}
-
-/// `exp(M)` by scaling, Taylor's series and squaring of `exp - 1`, which keeps the digits of a small step.
-fn exponential(matrix: &DMatrix<f64>) -> DMatrix<f64> {
-    let norm = matrix.row_iter().map(|row| row.iter().map(|v| v.abs()).sum::<f64>()).fold(0.0, f64::max);
-    let squarings = if norm > 0.5 { (norm / 0.5).log2().ceil() as i32 } else { 0 };
-    let small = matrix * 0.5_f64.powi(squarings);
-    let unity = DMatrix::identity(matrix.nrows(), matrix.ncols());
-    // Horner's scheme; what is left out is below 0.5^15/15! = 2e-17
-    let mut sum = DMatrix::zeros(matrix.nrows(), matrix.ncols());
-    for order in (1..=14).rev() {
-        sum = (&small * (&sum + &unity)) / f64::from(order);
-    }
-    for _ in 0..squarings {
-        sum = &sum * 2.0 + &sum * &sum;
-    }
-    sum + unity
 }
 
 /// `(Omega^2 - i Omega') exp(i phi)`: force per unbalance.

@@ -2,7 +2,6 @@
 //! a case.
 
 mod absorber;
-mod against_chain;
 mod contact;
 mod crank;
 mod linear;

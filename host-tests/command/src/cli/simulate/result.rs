@@ -406,7 +406,6 @@ fn happened(file: &TrainFile, event: &driveline_solver::plant::Event) -> Happene
         (EventKind::Slip, _) => "breaks loose",
         (EventKind::Reversal, _) => "passes through rest",
         (EventKind::Flow, _) => "power turns round",
-        (EventKind::MotorLaw, _) => "corner of the motor's law",
         (EventKind::Unresolved, _) => "not resolved",
     };
     Happened { time: event.time, what: what.to_owned(), place: place.clone() }

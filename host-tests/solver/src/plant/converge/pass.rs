@@ -13,8 +13,6 @@ const TOLERANCE: f64 = 1e-13;
 const FALLEN: f64 = 1e-12;
 /// Share of a step over which rates of guards are taken; the rounding of a guard is a 1e-13th of its size then.
 const SPAN: f64 = 1e-3;
-/// An event of a chain is found within this time, s.
-pub(super) const CLOSE: f64 = 1e-15;
 /// Product of the fastest rate and a step, at most: no guard turns twice in less than a radian of it.
 pub(in crate::plant) const REACH: f64 = 1.0;
 /// Events within one longest step after which a run is given up.

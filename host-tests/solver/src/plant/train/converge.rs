@@ -20,6 +20,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub(in crate::plant) mod chain;
 mod growth;
 #[cfg(test)]
 mod random;
@@ -32,7 +33,6 @@ use super::linkage::Orders;
 use super::mesh::Harmonic;
 use super::motion::Motion;
 use super::rank::Elimination;
-use super::signal::Signal;
 use super::source::Source;
 use super::state::{Mode, State};
 use crate::plant::converge::pass::{Pass, REACH};
@@ -46,10 +46,14 @@ const FRESH: f64 = 1e-12;
 /// Growth within a piece that takes the error of a thousand steps, each right to 1e-13, beyond the bound.
 const GROWN: f64 = BOUND / 1e-10;
 
+/// What is done to a motion: a tick, a torque held on a coordinate, its dry friction against the ground, stiffness and
+/// damping of a link.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Step {
     Advance(f64),
     Torque(usize, f64),
+    Friction(usize, f64),
+    Link(usize, f64, f64),
 }
 
 impl Step {
@@ -57,6 +61,38 @@ impl Step {
         match self {
             Step::Advance(dt) => motion.advance(dt),
             Step::Torque(coordinate, torque) => motion.set_torque(coordinate, torque),
+            Step::Friction(coordinate, torque) => motion.set_ground_friction(coordinate, torque),
+            Step::Link(link, stiffness, damping) => motion.set_link(link, stiffness, damping),
+        }
+    }
+}
+
+/// Everything that was done to a motion, and what came of every tick.
+#[derive(Debug, Clone)]
+struct Run {
+    start: Motion,
+    steps: Vec<Step>,
+    samples: Vec<Vec<f64>>,
+    times: Vec<f64>,
+    /// Guards that fell.
+    fired: u64,
+}
+
+impl Run {
+    /// Of a motion that begins as it is.
+    pub fn of(motion: &Motion) -> Self {
+        let mut start = motion.clone();
+        start.watches.clear();
+        Self { start, steps: Vec::new(), samples: Vec::new(), times: Vec::new(), fired: 0 }
+    }
+
+    /// Writes down what was done, with the motion as it is then.
+    pub fn note(&mut self, step: Step, motion: &Motion) {
+        self.steps.push(step);
+        if let Step::Advance(_) = step {
+            self.samples.push(sample(motion));
+            self.times.push(motion.time());
+            self.fired = motion.fired - self.start.fired;
         }
     }
 }
@@ -64,10 +100,7 @@ impl Step {
 /// A motion whose run is written down as it goes.
 #[derive(Debug, Clone)]
 pub struct Recording {
-    start: Motion,
-    steps: Vec<Step>,
-    samples: Vec<Vec<f64>>,
-    times: Vec<f64>,
+    run: Run,
     motion: Motion,
 }
 
@@ -75,9 +108,7 @@ impl Recording {
     /// Begins with the motion as it is, which must not have been advanced yet.
     #[must_use]
     pub fn new(motion: Motion) -> Self {
-        let mut start = motion.clone();
-        start.watches.clear();
-        Self { start, steps: Vec::new(), samples: Vec::new(), times: Vec::new(), motion }
+        Self { run: Run::of(&motion), motion }
     }
 
     /// [`Motion::advance`], written down.
@@ -85,9 +116,7 @@ impl Recording {
         let refused = self.motion.refused();
         self.motion.advance(dt);
         if self.motion.refused() == refused {
-            self.steps.push(Step::Advance(dt));
-            self.samples.push(sample(&self.motion));
-            self.times.push(self.motion.time());
+            self.run.note(Step::Advance(dt), &self.motion);
         }
     }
 
@@ -96,7 +125,7 @@ impl Recording {
         let refused = self.motion.refused();
         self.motion.set_torque(coordinate, torque);
         if self.motion.refused() == refused {
-            self.steps.push(Step::Torque(coordinate, torque));
+            self.run.note(Step::Torque(coordinate, torque), &self.motion);
         }
     }
 
@@ -112,7 +141,7 @@ impl Recording {
 /// # Errors
 /// [`NotProven`] if one of them comes out more than [`BOUND`] from the recording, or cannot be done.
 pub fn prove(run: &Recording) -> Result<Proof, NotProven> {
-    check(run, false, |_| {})
+    check(&run.run, false, |_| {})
 }
 
 /// [`prove`], telling now and then the share of the work that is done, from 0 to 1; of a sensitive run in pieces.
@@ -126,10 +155,10 @@ pub fn prove(run: &Recording) -> Result<Proof, NotProven> {
 /// # Errors
 /// [`NotProven`] if a step comes out more than [`BOUND`] from the recording, or cannot be done.
 pub fn prove_in_pieces(run: &Recording, done: impl FnMut(f64)) -> Result<Proof, NotProven> {
-    check(run, true, done)
+    check(&run.run, true, done)
 }
 
-fn check(run: &Recording, pieces: bool, done: impl FnMut(f64)) -> Result<Proof, NotProven> {
+fn check(run: &Run, pieces: bool, done: impl FnMut(f64)) -> Result<Proof, NotProven> {
     if run.samples.is_empty() {
         return Err(NotProven::Empty);
     }
@@ -137,7 +166,7 @@ fn check(run: &Recording, pieces: bool, done: impl FnMut(f64)) -> Result<Proof, 
     let sizes = sizes(run, &peaks);
     let tightened = || {
         // without an event nothing was located: the same series would come out
-        if run.motion.fired == 0 { Ok(None) } else { follow(run, &sizes, pieces, Tightened::of(run), |_| {}).map(Some) }
+        if run.fired == 0 { Ok(None) } else { follow(run, &sizes, pieces, Tightened::of(run), |_| {}).map(Some) }
     };
     let (integrator, tightened) = std::thread::scope(|scope| {
         let tightened = scope.spawn(tightened);
@@ -164,7 +193,8 @@ trait Again {
 
     /// Takes the place of the recording, with its sample at a time (s), in the mode that the last step began with.
     fn restart(&mut self, sample: &[f64], time: f64);
-    fn torque(&mut self, coordinate: usize, torque: f64);
+    /// Does what is no tick.
+    fn change(&mut self, step: Step);
     /// Goes on by `dt` to the time `end`, both in s; the sample there.
     fn advance(&mut self, dt: f64, end: f64) -> Result<Vec<f64>, NotProven>;
 }
@@ -177,7 +207,7 @@ struct Followed {
 }
 
 fn follow<A: Again>(
-    run: &Recording,
+    run: &Run,
     sizes: &[f64],
     pieces: bool,
     mut again: A,
@@ -189,11 +219,11 @@ fn follow<A: Again>(
     for (index, step) in run.steps.iter().enumerate() {
         done(index as f64 / run.steps.len() as f64);
         let dt = match *step {
-            Step::Torque(coordinate, torque) => {
-                again.torque(coordinate, torque);
+            Step::Advance(dt) => dt,
+            step => {
+                again.change(step);
                 continue;
             }
-            Step::Advance(dt) => dt,
         };
         let time = run.times[sample];
         let mut largest = run.deviation(sample, before, &again.advance(dt, time)?, sizes);
@@ -243,7 +273,7 @@ struct Tightened {
 }
 
 impl Tightened {
-    fn of(run: &Recording) -> Self {
+    fn of(run: &Run) -> Self {
         let mut motion = run.start.clone();
         motion.set_event_tolerance(0.1 * motion.event_tolerance);
         Self { mode: motion.mode.clone(), clock: motion.clock, fired: motion.fired, motion }
@@ -256,10 +286,11 @@ impl Again for Tightened {
     fn restart(&mut self, sample: &[f64], time: f64) {
         self.motion.state = state(&self.motion, sample);
         (self.motion.mode, self.motion.clock, self.motion.now) = (self.mode.clone(), self.clock, time);
+        self.motion.look_again();
     }
 
-    fn torque(&mut self, coordinate: usize, torque: f64) {
-        self.motion.set_torque(coordinate, torque);
+    fn change(&mut self, step: Step) {
+        step.take(&mut self.motion);
     }
 
     fn advance(&mut self, dt: f64, _: f64) -> Result<Vec<f64>, NotProven> {
@@ -274,18 +305,18 @@ impl Again for Tightened {
 
 /// Speeds, then elongations, then forces, then angles.
 fn sample(motion: &Motion) -> Vec<f64> {
-    let forces: Vec<Signal> = (0..motion.links()).map(Signal::Force).collect();
+    let forces = (0..motion.links()).map(|link| motion.force(link));
     let state = &motion.state;
     let moved = state.speed.iter().chain(&state.elongation).copied();
-    moved.chain(motion.read_all(&forces)).chain(state.angle.iter().copied()).collect()
+    moved.chain(forces).chain(state.angle.iter().copied()).collect()
 }
 
 /// The second integrator.
 struct Integrator<'a> {
     start: &'a Motion,
-    double: Double<'a>,
+    double: Double,
     /// At the start of the step.
-    before: Double<'a>,
+    before: Double,
     /// Elongations, speeds, angles.
     y: Vec<f64>,
     pass: Pass<Change>,
@@ -293,7 +324,7 @@ struct Integrator<'a> {
 }
 
 impl<'a> Integrator<'a> {
-    fn of(run: &'a Recording, peaks: &[f64]) -> Self {
+    fn of(run: &'a Run, peaks: &[f64]) -> Self {
         let motion = &run.start;
         let (n, links) = (motion.coordinates(), motion.links());
         let state = &motion.state;
@@ -303,7 +334,7 @@ impl<'a> Integrator<'a> {
         let scale: Vec<f64> = scale.map(or_one).collect();
         let rate = motion.rate + turning(motion, &peaks[..n]);
         let pass = Pass::new(&scale, REACH / rate.max(1e-3), 0.1 * motion.event_tolerance);
-        let double = Double::new(&motion.train, motion.held.clone(), &motion.mode.arcs, &peaks[..n]);
+        let double = Double::new(motion.train.clone(), motion.held.clone(), &motion.mode.arcs, &peaks[..n]);
         Self { start: motion, before: double.clone(), double, y, pass, now: motion.now }
     }
 
@@ -326,8 +357,11 @@ impl Again for Integrator<'_> {
         self.pass.anew();
     }
 
-    fn torque(&mut self, coordinate: usize, torque: f64) {
-        (self.double.held[coordinate], self.double.changed) = (torque, true);
+    fn change(&mut self, step: Step) {
+        let rate = self.double.apply(step, self.now, &mut self.y);
+        if rate > 0.0 {
+            self.pass.longest = self.pass.longest.min(REACH / rate);
+        }
         self.pass.anew();
     }
 
@@ -384,7 +418,7 @@ fn turning(motion: &Motion, speeds: &[f64]) -> f64 {
     coordinates.map(|(c, speed)| speed * c.sources.iter().map(highest).fold(pinned(c), f64::max)).fold(0.0, f64::max)
 }
 
-fn peaks(run: &Recording) -> Vec<f64> {
+fn peaks(run: &Run) -> Vec<f64> {
     let mut peaks = vec![0.0_f64; run.samples.first().map_or(0, Vec::len)];
     for sample in &run.samples {
         for (peak, value) in peaks.iter_mut().zip(sample) {
@@ -397,7 +431,7 @@ fn peaks(run: &Recording) -> Vec<f64> {
 /// What a deviation is a share of: the peak of each quantity; of the angle of what turns freely at least the way that
 /// its peak speed would go in the whole run. It may come back to where it was, and gathers the rounding of its speed
 /// all the same.
-fn sizes(run: &Recording, peaks: &[f64]) -> Vec<f64> {
+fn sizes(run: &Run, peaks: &[f64]) -> Vec<f64> {
     let (n, time) = (run.start.coordinates(), run.times.last().map_or(0.0, |end| end - run.start.now));
     let angles = peaks.len() - n;
     let links = run.start.train.links.iter().map(|link| link.terms.as_slice());
@@ -411,7 +445,7 @@ fn sizes(run: &Recording, peaks: &[f64]) -> Vec<f64> {
     peaks.iter().enumerate().map(size).collect()
 }
 
-impl Recording {
+impl Run {
     /// Largest deviation of a sample from that of the run.
     fn deviation(&self, sample: usize, before: f64, other: &[f64], sizes: &[f64]) -> f64 {
         self.apart([before, self.times[sample]], &self.samples[sample], other, sizes)
@@ -455,10 +489,10 @@ mod tests {
         assert!(prove(&run).is_err());
         let proof = prove_in_pieces(&run, |_| {}).unwrap();
         assert!(proof.sensitive.is_some_and(|sensitive| sensitive.restarts > 0), "{proof:?}");
-        let peak = peaks(&run)[0];
+        let peak = peaks(&run.run)[0];
         for sample in [1, 1234, 3998] {
             let mut wrong = run.clone();
-            wrong.samples[sample][0] += 1e-7 * peak;
+            wrong.run.samples[sample][0] += 1e-7 * peak;
             assert!(matches!(prove_in_pieces(&wrong, |_| {}), Err(NotProven::Deviates { .. })), "{sample}");
         }
     }
@@ -487,7 +521,7 @@ mod tests {
         for _ in 0..ticks {
             run.advance(dt);
         }
-        run.start = right.build().unwrap();
+        run.run.start = right.build().unwrap();
         run
     }
 

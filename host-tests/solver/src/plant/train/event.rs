@@ -14,7 +14,7 @@ const MOST_EVENTS: usize = 1000;
 
 /// Action of a fallen guard.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Action {
+pub(super) enum Action {
     /// The contact of the link becomes this.
     Contact(usize, i8),
     /// The torque of the link changes its sign.
@@ -93,7 +93,7 @@ impl Motion {
     }
 
     /// All quantities that must not fall below zero while the stretch lasts.
-    fn guards(&self, stretch: &Stretch, mut add: impl FnMut(Action, (Series, Series))) {
+    pub(super) fn guards(&self, stretch: &Stretch, mut add: impl FnMut(Action, (Series, Series))) {
         for (l, link) in self.train.links.iter().enumerate().filter(|(_, link)| !link.is_linear()) {
             let (x, force) = (&stretch.approach[l], &stretch.strain[l]);
             let reach = link.origin(1);
@@ -290,7 +290,7 @@ impl Motion {
     }
 
     /// Lets a friction slide that would have to hold more than it can.
-    fn let_go(&mut self, s: usize) {
+    pub(super) fn let_go(&mut self, s: usize) {
         let breakaway = self.train.frictions[s].breakaway;
         let stretch = self.stretch(self.longest(f64::MAX));
         for side in [1, -1] {

@@ -30,14 +30,17 @@ pub struct Motion {
     pub(super) now: f64,
     /// Torques held from outside.
     pub(super) held: Vec<f64>,
+    /// Bound of the rates, 1/s.
     pub(super) rate: f64,
+    /// As it was computed, with stiffness and damping of every link.
+    computed: (f64, Vec<(f64, f64)>),
     pub(super) settled: bool,
     pub(super) event_tolerance: f64,
     pub(super) events: Vec<Event>,
     pub(super) watches: Vec<Watch>,
     /// Guards that fell, those that are not told as events included.
     pub(super) fired: u64,
-    leap: Option<Leap>,
+    leap: Option<Box<Leap>>,
     refused: u64,
 }
 
@@ -67,7 +70,7 @@ impl Train {
 
 impl Train {
     /// The friction of a coordinate against the ground.
-    fn ground_friction(&self, at: usize) -> Option<usize> {
+    pub(super) fn ground_friction(&self, at: usize) -> Option<usize> {
         self.frictions.iter().position(|friction| friction.terms == [(at, 1.0)])
     }
 }
@@ -113,8 +116,10 @@ impl Motion {
             holding: DMatrix::zeros(0, 0),
         };
         let rate = fastest(&train);
-        let leap = Leap::of(&train, rate);
+        let leap = Leap::of(&train);
+        let links = train.links.iter().map(|link| (link.stiffness, link.damping));
         Self {
+            computed: (rate, links.collect()),
             rate,
             held: vec![0.0; train.coordinates.len()],
             train,
@@ -139,6 +144,57 @@ impl Motion {
             Some(held) if torque.is_finite() => *held = torque,
             _ => self.refused += 1,
         }
+    }
+
+    /// Gives a coordinate so much dry friction against the ground, N m or N, zero or above: a brake.
+    pub(super) fn set_ground_friction(&mut self, at: usize, torque: f64) {
+        let now = self.train.ground_friction(at).map_or(0.0, |s| self.train.frictions[s].kinetic);
+        if torque == now {
+            return;
+        }
+        match self.train.rub(at, torque) {
+            (s, 1) => {
+                let speed = self.state.speed[at];
+                self.mode.slip.push(if speed == 0.0 { 0 } else { speed.signum() as i8 });
+                self.mode.gather(&self.train);
+                if speed == 0.0 && self.settled {
+                    self.let_go(s);
+                }
+            }
+            (s, -1) => {
+                self.mode.slip.remove(s);
+                self.mode.gather(&self.train);
+            }
+            _ => {}
+        }
+        self.leap = Leap::of(&self.train);
+    }
+
+    /// Gives a link another stiffness and damping, which are in their range; its elastic force stays.
+    pub(super) fn set_link(&mut self, l: usize, stiffness: f64, damping: f64) {
+        let (link, contact) = (&mut self.train.links[l], self.mode.contact[l]);
+        if contact != 0 || link.is_linear() {
+            let (origin, elongation) = (link.origin(contact), &mut self.state.elongation[l]);
+            *elongation = origin + (*elongation - origin) * link.stiffness / stiffness;
+        }
+        (link.stiffness, link.damping) = (stiffness, damping);
+        let (rate, computed) = &self.computed;
+        let before = computed[l];
+        let near = |now: f64, before: f64| now <= 2.0 * before && now >= 0.25 * before;
+        if near(stiffness, before.0) && near(damping, before.1) {
+            // no rate grows by more than the stiffness does under its root, and the damping
+            let growth = (stiffness / before.0).sqrt().max(if damping > 0.0 { damping / before.1 } else { 0.0 });
+            self.rate = self.rate.max(rate * growth);
+        } else {
+            self.compute_rate();
+        }
+        self.leap = Leap::of(&self.train);
+    }
+
+    fn compute_rate(&mut self) {
+        self.rate = fastest(&self.train);
+        let links = self.train.links.iter().map(|link| (link.stiffness, link.damping));
+        self.computed = (self.rate, links.collect());
     }
 
     /// How many calls were refused.
@@ -175,25 +231,53 @@ impl Motion {
                 self.run_to(corner);
             }
             self.run_to(end);
+            self.look_again();
         }
         // Neumaier's sum
         self.clock = (end, if clock >= step { (clock - end) + step } else { (step - end) + clock });
     }
 
-    /// A whole tick of a linear train at once, where that is less work than its series.
+    /// The mode may have changed but by a tick.
+    pub(super) fn look_again(&mut self) {
+        if let Some(leap) = &mut self.leap {
+            leap.look_again();
+        }
+    }
+
+    /// The same mode, with nothing held.
+    pub(super) fn probe(&self) -> Self {
+        let (train, state, mode) = (self.train.clone(), self.state.clone(), self.mode.clone());
+        let held = vec![0.0; self.held.len()];
+        Self {
+            train,
+            state,
+            mode,
+            held,
+            events: Vec::new(),
+            watches: Vec::new(),
+            leap: None,
+            computed: (0.0, Vec::new()),
+            ..*self
+        }
+    }
+
+    /// A whole tick at once, where no guard can fall in it.
     fn leap(&mut self, length: f64, end: f64) -> bool {
-        if !self.watches.is_empty() || self.rate * length <= 2.0 * REACH {
+        if !self.watches.is_empty() {
             return false;
         }
-        let Some(leap) = &mut self.leap else { return false };
-        let state = &self.state;
-        let x: Vec<f64> = state.elongation.iter().chain(&state.speed).chain(&state.angle).copied().collect();
-        let Some(after) = leap.step(&self.train, &x, &self.held, self.now, length) else { return false };
-        let (links, n) = (self.train.links.len(), self.train.coordinates.len());
-        let part = |from: usize, count: usize| after[from..from + count].to_vec();
-        self.state = State { elongation: part(0, links), speed: part(links, n), angle: part(links + n, n) };
-        self.now = end;
-        true
+        let Some(mut leap) = self.leap.take() else { return false };
+        let leapt = leap.step(self, length);
+        if leapt {
+            let (elongation, moved) = leap.after.split_at(self.train.links.len());
+            let (speed, angle) = moved.split_at(self.train.coordinates.len());
+            self.state.elongation.copy_from_slice(elongation);
+            self.state.speed.copy_from_slice(speed);
+            self.state.angle.copy_from_slice(angle);
+            self.now = end;
+        }
+        self.leap = Some(leap);
+        leapt
     }
 
     pub(super) fn corner_after(&self, time: f64) -> Option<f64> {
@@ -253,7 +337,7 @@ pub(super) fn pins_of(train: &Train) -> Vec<Pinning> {
 
 /// Bound of the rates of a train, 1/s: the highest natural frequency with every link in contact at its stiffest, the
 /// highest rate of damping, and how fast stiffnesses and torques swing.
-fn fastest(train: &Train) -> f64 {
+pub(super) fn fastest(train: &Train) -> f64 {
     // of a gear the least that either direction feels, over the most that it makes of what is behind it
     let least = |c: &Coordinate| {
         c.gear.map_or(c.inertia, |gear| {

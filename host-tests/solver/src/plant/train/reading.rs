@@ -85,7 +85,15 @@ impl Motion {
     /// Force of a link, N m or N, positive when it is stretched; NaN for one that is not there.
     #[must_use]
     pub fn force(&self, link: usize) -> f64 {
-        self.read(Signal::Force(link))
+        match self.train.links.get(link) {
+            Some(_) if !self.mode.carries(&self.train, link) => 0.0,
+            Some(fixed) if fixed.variation.is_none() => {
+                let rate: f64 = fixed.terms.iter().map(|&(at, share)| share * self.state.speed[at]).sum();
+                let stretch = self.state.elongation[link] - fixed.origin(self.mode.contact[link]);
+                fixed.stiffness * stretch + fixed.damping * rate
+            }
+            _ => self.read(Signal::Force(link)),
+        }
     }
 
     /// Contact of a link: +1 drive side, -1 back side, 0 in the gap, slack for a rope.

@@ -273,7 +273,7 @@ impl Source {
         }
     }
 
-    pub(super) fn validate(&self, place: Place) -> Result<(), PlantError> {
+    pub(in crate::plant) fn validate(&self, place: Place) -> Result<(), PlantError> {
         let all = |values: &[f64]| values.iter().try_for_each(|&value| finite("torque of a source", place, value));
         let harmonics = |list: &[Harmonic]| list.iter().try_for_each(|h| all(&[h.order, h.cosine, h.sine]));
         match self {

@@ -3,7 +3,8 @@
 
 use std::time::Instant;
 
-use driveline_solver::plant::{Chain, EventKind, LoadProgram, MotorLaw, Plant, PlantError, Shaft, Start};
+use driveline_solver::plant::train::Source;
+use driveline_solver::plant::{Chain, EventKind, LoadProgram, Plant, PlantError, Shaft, Start};
 
 fn hoist() -> Chain {
     Chain::motor(0.62)
@@ -140,7 +141,7 @@ fn a_bad_chain_is_refused_by_the_name_of_what_is_wrong() {
         assert!(says(Chain::motor(1.0).shaft(soft, bad)).starts_with("inertia of node 1 is"));
         assert!(says(Chain::motor(1.0).shaft(Shaft::elastic(bad), 1.0)).starts_with("stiffness of shaft 0 is"));
         assert!(says(Chain::motor(1.0).shaft(Shaft::rope(bad), 1.0)).starts_with("stiffness of shaft 0 is"));
-        let law = MotorLaw::Ramp { torque: 1.0, time: bad };
+        let law = Source::Starting { torque: 1.0, time: bad, power: 1 };
         assert!(says(Chain::motor(1.0).motor_law(law)).starts_with("starting time of node 0 is"));
     }
     for bad in [-1e-9, f64::NAN, f64::INFINITY] {
@@ -180,7 +181,6 @@ fn bad_calls_change_nothing_and_are_counted() {
     plant.set_brake(1, -1.0);
     plant.set_event_tolerance(f64::NAN);
     assert_eq!((plant.time(), plant.motor_speed(), plant.refused()), (time, speed, 9));
-    assert!(plant.set_motor_law(MotorLaw::Constant(f64::NAN)).is_err());
     assert!(plant.speed(9).is_nan() && plant.angle(9).is_nan() && plant.load_torque(9).is_nan());
     assert!(plant.shaft_torque(2).is_nan() && plant.twist(2).is_nan());
 }

@@ -1,6 +1,6 @@
 //! How a small difference grows within a piece of a run, as the solver shows that runs it twice.
 
-use super::{Motion, Recording, Step, sample, state};
+use super::{Motion, Run, Step, sample, state};
 
 /// The solver where a piece begins.
 pub(super) struct Growth {
@@ -10,12 +10,12 @@ pub(super) struct Growth {
 }
 
 impl Growth {
-    pub fn of(run: &Recording) -> Self {
+    pub fn of(run: &Run) -> Self {
         Self { motion: run.start.clone(), step: 0 }
     }
 
     /// What the piece so far makes of a difference of 1e-13 at its begin, at most.
-    pub fn until(&self, run: &Recording, sizes: &[f64], last: usize) -> f64 {
+    pub fn until(&self, run: &Run, sizes: &[f64], last: usize) -> f64 {
         const SEED: f64 = 1e-13;
         let (mut one, mut other) = (self.motion.clone(), self.motion.clone());
         // what friction holds stays at rest
@@ -41,7 +41,7 @@ impl Growth {
     }
 
     /// A new piece, at a step, in the state of the recording.
-    pub fn begin(&mut self, run: &Recording, step: usize, sample: &[f64]) {
+    pub fn begin(&mut self, run: &Run, step: usize, sample: &[f64]) {
         run.steps[self.step..step].iter().for_each(|step| step.take(&mut self.motion));
         self.motion.state = state(&self.motion, sample);
         self.step = step;

@@ -99,7 +99,7 @@ fn a_right_run_of_a_random_train_is_not_refused() {
     let runs: Vec<Recording> = (0..RUNS).filter_map(|number| run(number, 0.0)).collect();
     let mut pieces = 0;
     for run in &runs {
-        let proof = prove_in_pieces(run, |_| {}).unwrap_or_else(|error| panic!("{error}: {:#?}", run.start.train));
+        let proof = prove_in_pieces(run, |_| {}).unwrap_or_else(|error| panic!("{error}: {:#?}", run.run.start.train));
         pieces += usize::from(proof.sensitive.is_some());
     }
     assert!(runs.len() > 30 && pieces > 2, "{} {pieces}", runs.len());

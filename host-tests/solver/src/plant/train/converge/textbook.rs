@@ -8,6 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use super::super::pins::Pinning;
 use super::super::rigid_gear::Flow;
 use super::super::{Source, Train, Variation};
+use super::Step;
 use crate::plant::converge::pass::Hybrid;
 
 /// Meaning of a guard that falls below zero.
@@ -33,8 +34,8 @@ const ROUNDING: f64 = 1e-12;
 
 /// Parameters and discrete state. The continuous state is elongations, speeds, angles.
 #[derive(Clone)]
-pub struct Double<'a> {
-    train: &'a Train,
+pub struct Double {
+    train: Train,
     pub held: Vec<f64>,
     /// A time within the present interval between corners of the torques and stiffnesses, s.
     pub middle: f64,
@@ -57,8 +58,8 @@ pub struct Double<'a> {
     pub changed: bool,
 }
 
-impl<'a> Double<'a> {
-    pub fn new(train: &'a Train, held: Vec<f64>, arcs: &[(usize, usize, i64)], peak: &[f64]) -> Self {
+impl Double {
+    pub fn new(train: Train, held: Vec<f64>, arcs: &[(usize, usize, i64)], peak: &[f64]) -> Self {
         let side = train.links.iter().map(|link| {
             // contacts close where they are settled
             f64::from(u8::from(link.is_linear()))
@@ -70,9 +71,9 @@ impl<'a> Double<'a> {
             stuck: Vec::new(),
             holding: DMatrix::zeros(0, 0),
             arcs: arcs.to_vec(),
-            gears: super::super::motion::gears_of(train),
-            pins: super::super::motion::pins_of(train),
-            teeth: super::super::motion::teeth_of(train),
+            gears: super::super::motion::gears_of(&train),
+            pins: super::super::motion::pins_of(&train),
+            teeth: super::super::motion::teeth_of(&train),
             held,
             settled: false,
             peak: peak.to_vec(),
@@ -80,6 +81,40 @@ impl<'a> Double<'a> {
             middle: 0.0,
             train,
         }
+    }
+
+    /// Does what is no tick; a bound of the rates afterwards, 1/s, of a link that has changed.
+    pub fn apply(&mut self, step: Step, t: f64, y: &mut [f64]) -> f64 {
+        self.changed = true;
+        match step {
+            Step::Advance(_) => {}
+            Step::Torque(coordinate, torque) => self.held[coordinate] = torque,
+            Step::Friction(at, torque) => match self.train.rub(at, torque) {
+                (s, 1) => {
+                    let over = self.speed(y, at);
+                    self.way.push(if over == 0.0 { 0.0 } else { over.signum() });
+                    self.hold();
+                    if over == 0.0 && self.settled {
+                        self.judge(t, y, s);
+                    }
+                }
+                (s, -1) => {
+                    self.way.remove(s);
+                    self.hold();
+                }
+                _ => {}
+            },
+            Step::Link(l, stiffness, damping) => {
+                let link = &mut self.train.links[l];
+                let origin = if link.rope { link.gap } else { 0.5 * link.gap * self.side[l].signum() };
+                if self.side[l] != 0.0 {
+                    y[l] = origin + (y[l] - origin) * link.stiffness / stiffness;
+                }
+                (link.stiffness, link.damping) = (stiffness, damping);
+                return super::super::motion::fastest(&self.train);
+            }
+        }
+        0.0
     }
 
     /// Directions of the frictions and flows at the start.
@@ -318,7 +353,7 @@ impl<'a> Double<'a> {
 
     /// Torques on the coordinates but for the frictions that stick, and the forces of those.
     fn balance(&self, t: f64, y: &[f64], net: &mut [f64]) -> Vec<f64> {
-        let train = self.train;
+        let train = &self.train;
         for (j, coordinate) in train.coordinates.iter().enumerate() {
             let sources = coordinate.sources.iter().enumerate();
             let torque: f64 = sources.map(|(s, source)| self.torque(t, y, j, s, source)).sum();
@@ -461,7 +496,7 @@ impl<'a> Double<'a> {
     }
 }
 
-impl Hybrid for Double<'_> {
+impl Hybrid for Double {
     type Change = Change;
 
     fn rate(&self, t: f64, y: &[f64], out: &mut [f64]) {
