@@ -158,6 +158,24 @@ fn the_sliders_mass_and_a_force_load_the_pins_of_a_short_rod_as_by_quadrature() 
     }
 }
 
+/// The square of a speed that begins with 30 rad/s, which falls so by the angle: Runge-Kutta of order four, so many steps
+/// between every two corners.
+fn fallen(corners: &[f64], steps: i32, fall: impl Fn(f64, f64) -> f64) -> f64 {
+    let mut square = 900.0;
+    for pair in corners.windows(2) {
+        let h = (pair[1] - pair[0]) / f64::from(steps);
+        for step in 0..steps {
+            let angle = pair[0] + h * f64::from(step);
+            let k1 = fall(angle, square);
+            let k2 = fall(angle + 0.5 * h, square + 0.5 * h * k1);
+            let k3 = fall(angle + 0.5 * h, square + 0.5 * h * k2);
+            let k4 = fall(angle + h, square + h * k3);
+            square += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+        }
+    }
+    square
+}
+
 /// A light machine, whose speed swings by much, loses what the pins take of the rod's force as it is then: the power
 /// over the angle by Runge-Kutta of order four, with the force solved for by trials. Both integrators run it alike.
 #[test]
@@ -183,19 +201,7 @@ fn a_light_crank_is_slowed_by_its_pins_as_its_speed_swings() {
         2.0 * speeding
     };
     let corners = [0.0, FRAC_PI_2, 3.0 * FRAC_PI_2, TAU];
-    let mut square = 900.0;
-    for pair in corners.windows(2) {
-        const STEPS: i32 = 4000;
-        let h = (pair[1] - pair[0]) / f64::from(STEPS);
-        for step in 0..STEPS {
-            let angle = pair[0] + h * f64::from(step);
-            let k1 = fall(angle, square);
-            let k2 = fall(angle + 0.5 * h, square + 0.5 * h * k1);
-            let k3 = fall(angle + 0.5 * h, square + 0.5 * h * k2);
-            let k4 = fall(angle + h, square + h * k3);
-            square += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
-        }
-    }
+    let square = fallen(&corners, 4000, fall);
     let way = |angle: f64| 0.1 * angle.cos() + (0.0625 - (0.1 * angle.sin()).powi(2)).sqrt();
     let machine = |coordinate: Coordinate| {
         let push = Source::Orders(Orders::sampled(way).slope().times(force).0);
@@ -356,19 +362,7 @@ fn a_light_four_bar_is_slowed_by_its_pins_as_its_speed_swings() {
     let [stretched, folded] = BARS.dead_centres();
     let corners = [0.0, stretched, PI, folded, TAU];
     assert!(corners.is_sorted());
-    let mut square = 900.0;
-    for pair in corners.windows(2) {
-        const STEPS: i32 = 2000;
-        let h = (pair[1] - pair[0]) / f64::from(STEPS);
-        for step in 0..STEPS {
-            let angle = pair[0] + h * f64::from(step);
-            let k1 = fall(angle, square);
-            let k2 = fall(angle + 0.5 * h, square + 0.5 * h * k1);
-            let k3 = fall(angle + 0.5 * h, square + 0.5 * h * k2);
-            let k4 = fall(angle + h, square + h * k3);
-            square += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
-        }
-    }
+    let square = fallen(&corners, 2000, fall);
     let way = Orders::sampled(rocker);
     let machine = |coordinate: Coordinate| {
         let push = Source::Orders(way.slope().times(torque).0);
