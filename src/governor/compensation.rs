@@ -23,6 +23,12 @@ pub trait Compensation<N: Number>: Default {
     fn transient(&self, _config: &Self::Config, _estimate: &Estimate<N>, torque: N) -> N {
         torque
     }
+
+    /// The loop's integral with room for the compensation beside it: two bases in fixed point.
+    #[inline(always)]
+    fn held(integral: N) -> N {
+        integral.saturated()
+    }
 }
 
 /// Nothing is added.
@@ -47,6 +53,11 @@ impl<N: Number, A: Compensation<N>, B: Compensation<N>> Compensation<N> for (A, 
     #[inline(always)]
     fn transient(&self, config: &Self::Config, estimate: &Estimate<N>, torque: N) -> N {
         self.1.transient(&config.1, estimate, self.0.transient(&config.0, estimate, torque))
+    }
+
+    #[inline(always)]
+    fn held(integral: N) -> N {
+        A::held(B::held(integral))
     }
 }
 
@@ -74,6 +85,12 @@ impl<N: Number> Compensation<N> for FeedForward {
     #[inline(always)]
     fn steady(&self, config: &FeedForwardConfig<N>, estimate: &Estimate<N>, torque: N) -> N {
         torque + estimate.load_torque.widened().times(config.share)
+    }
+
+    // At most two bases: in saturation the integral stands as far beyond the limit.
+    #[inline(always)]
+    fn held(integral: N) -> N {
+        integral.addable()
     }
 }
 
@@ -121,6 +138,12 @@ impl<N: Number> Compensation<N> for ActiveDamping {
     #[inline(always)]
     fn transient(&self, config: &ActiveDampingConfig<N>, estimate: &Estimate<N>, torque: N) -> N {
         torque + (estimate.motor_speed - estimate.load_speed).gained::<1>(config.damping)
+    }
+
+    // At most a base: in saturation the integral stands as far beyond the limit.
+    #[inline(always)]
+    fn held(integral: N) -> N {
+        integral.addable()
     }
 }
 

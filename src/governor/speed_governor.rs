@@ -145,6 +145,9 @@ where
             self.standing(c, estimate) + error.gained::<4>(c.gains.proportional).limited(twice + twice)
         };
         self.integral = (self.integral + (wanted(from) - wanted(to)).limited(twice)).limited(twice);
+        // With the compensation three: less four of the proportional part, it is the limit the other way.
+        let standing = self.standing(to, estimate);
+        self.integral = self.integral + (standing.limited(twice + most) - standing);
         self.ramped = self.ramped + (target - self.target(to, estimate));
     }
 
@@ -155,7 +158,7 @@ where
         self.shape.lower(&config.shape, self.ramped, standing)
     }
 
-    /// The integral, two bases at most, with the compensation: no limit of fixed point while that is within two.
+    /// The integral with the compensation, within what can be added to.
     #[inline(always)]
     fn standing(&self, config: &<Self as Governor<N>>::Config, estimate: &Estimate<N>) -> N {
         let steady = self.compensation.steady(&config.compensation, estimate, self.integral);
@@ -168,7 +171,7 @@ where
         let lowered = self.shape.lower(&config.shape, speed, torque);
         self.ramped = speed + (speed - lowered);
         let beyond = self.compensation.steady(&config.compensation, estimate, torque) - torque;
-        self.integral = (torque - beyond).saturated();
+        self.integral = F::held(torque - beyond);
         self.limit.start(torque);
     }
 }
@@ -221,7 +224,7 @@ where
         let wanted = (standing + error.gained::<4>(config.gains.proportional)).saturated();
         let torque = self.limit.limit(&config.limit, estimate, wanted);
         self.ramped = self.limit.track(&config.limit, self.ramped, wanted);
-        self.integral = self.integral.accumulate(&mut carry, [config.gains.reset], [torque - standing]).saturated();
+        self.integral = F::held(self.integral.accumulate(&mut carry, [config.gains.reset], [torque - standing]));
         torque
     }
 
