@@ -41,6 +41,12 @@ fn of(word: &str) -> String {
         "D" => element("drum", "diameter = 0.8"),
         "S" => element("rope", "falls = 2\nstiffness = 2.9e6\ndamping = 3.6e3"),
         "L" => element("lifted", "mass = 3000.0"),
+        "T" => element("slack", "travel = 0.02"),
+        // at the motor: R and K behind g, D behind g, H twice
+        "R/g" => element("rotor", "inertia = 0.75"),
+        "K/g" => element("shaft", "stiffness = 50.0\ndamping = 0.0075"),
+        "D/g" => element("drum", "diameter = 0.04"),
+        "HH" => element("gear", "ratio = 4.0\nefficiency = 0.9409"),
         other => panic!("{other}"),
     }
 }
@@ -124,8 +130,8 @@ fn losses_on_both_sides_are_all_the_losses() {
 }
 
 /// Machines with a lock, a heavy shaft, a shaft that the rate does not follow, a crank, a belt, a coupling before its
-/// gear, a rope without a shaft.
-const ODD: [&str; 19] = [
+/// gear, a rope without a shaft, a slack one.
+const ODD: [&str; 23] = [
     "M w K R",
     "M q w K R",
     "M K w R",
@@ -145,6 +151,10 @@ const ODD: [&str; 19] = [
     "M D S L",
     "M K D S L",
     "M B K D S L",
+    "M D T S L",
+    "M G D T S L",
+    "M K r G D T S L",
+    "M K r G D S T L",
 ];
 
 /// Changes of a file, and whether it is still a machine.
@@ -296,6 +306,37 @@ fn same_figures(what: &str, said: [&String; 2], project: &Path) {
         rust.contains("Rating { torque: Torque(300.0), speed: Speed(150.0), torque_limit: Torque(600.0) }"),
         "{what}: {rust}"
     );
+}
+
+/// A machine in two files, once with all of it at the motor, has the same figures in a campaign: those of the machine as
+/// it is, and those of a draw.
+#[test]
+fn a_campaign_of_one_machine_in_two_files_is_the_same() {
+    let place = tempfile::tempdir().unwrap();
+    let pairs = [
+        ("M K g R", "M K R/g"),
+        ("M g K R", "M K/g R/g"),
+        ("M K H H q", "M K HH q"),
+        ("M g D S L", "M D/g S L"),
+        ("M g D T S L", "M D/g T S L"),
+    ];
+    let figures = |words: &str, of: &str| {
+        fs::write(place.path().join("m.toml"), file(words)).unwrap();
+        let (taken, said) = answer(place.path(), &["campaign", "m.toml", "--draw", "3", "--json"]);
+        assert!(taken, "{words}: {said}");
+        json(&said)[of].as_object().unwrap().clone()
+    };
+    for (words, at_motor) in pairs {
+        for of in ["nominal", "figures"] {
+            let (one, other) = (figures(words, of), figures(at_motor, of));
+            assert!(one.len() > 10 && one.len() == other.len(), "{words} {of}: {one:?} {other:?}");
+            for (name, value) in &one {
+                let (a, b) = (value.as_f64(), other[name].as_f64());
+                let near = a.zip(b).map_or(a == b, |(a, b)| (a - b).abs() <= 1e-3 * a.abs() + 1e-6);
+                assert!(near, "{words} {of} {name}: {value} {}", other[name]);
+            }
+        }
+    }
 }
 
 /// The kept mode is the one whose frequency the two masses have, by hand from what is printed.

@@ -9,8 +9,8 @@ use super::campbell::{barred_speeds, critical};
 use super::chain::{KEPT, Leaving, Reduction, Vibration};
 use super::{damped, damper, engine, starts};
 
-/// Most masses whose amplitudes have a column.
-const SHOWN: usize = 24;
+/// Most masses or coordinates whose amplitudes have a column.
+pub const SHOWN: usize = 24;
 
 /// The tables as title, explanation and table: for the terminal and the page alike.
 pub fn tables(vibration: &Vibration) -> Vec<Section> {

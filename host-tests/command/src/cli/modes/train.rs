@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::campbell::{Critical, barred, barred_speeds, critical, critical_speeds, diagram};
 use super::damped::{self, DampedVibration};
 use super::figures::{campbell, shapes};
+use super::tables::SHOWN;
 use crate::cli::Failure;
 use crate::machine_file::TrainFile;
 use driveline_report::chart::Station;
@@ -48,7 +49,7 @@ impl TrainVibration {
     /// Of a train with every link in contact at its mean stiffness.
     pub fn of(file: &TrainFile) -> Result<Self, Failure> {
         let modes = file.train.modes().map_err(|error| Failure::failed(error.to_string()))?;
-        let decays = file.train.decays().map_err(|error| Failure::failed(error.to_string()))?;
+        let decays = file.train.decays(&modes).map_err(|error| Failure::failed(error.to_string()))?;
         let inertia = file.train.inertias();
         let elastic: Vec<usize> = (modes.rigid_motions()..modes.omega.len()).collect();
         let resonance = |&i: &usize| {
@@ -71,17 +72,18 @@ impl TrainVibration {
 
     /// Title, text and table of each part.
     pub fn tables(&self) -> Vec<Section> {
-        let headings = ["mode", "Hz", "rad/s"].map(String::from).into_iter().chain(self.coordinates.iter().cloned());
+        let shown = if self.coordinates.len() <= SHOWN { &*self.coordinates } else { &[] };
+        let headings = ["mode", "Hz", "rad/s"].map(String::from).into_iter().chain(shown.iter().cloned());
         let mut table = Table::new(headings);
         for (index, mode) in self.resonances.iter().enumerate() {
             let numbers = [mode.hz, mode.frequency].map(significant);
-            let shape = mode.energy.iter().map(|share| format!("{:+.1} %", 100.0 * share));
+            let shape = mode.energy.iter().take(shown.len()).map(|share| format!("{:+.1} %", 100.0 * share));
             table.row([(index + 1).to_string()].into_iter().chain(numbers).chain(shape));
         }
         let text = format!(
-            "Every link in contact at its mean stiffness; shares of the kinetic energy, signed as the parts move. \
-                Motions \
-             without strain: {}.",
+            "Every link in contact at its mean stiffness; shares of the kinetic energy, signed as the parts move{}. \
+             Motions without strain: {}.",
+            if shown.is_empty() { " (of more than 24 coordinates with `--json`)" } else { "" },
             self.rigid_motions
         );
         let modes = Section::new("Frequencies and shapes", text, table);

@@ -3,7 +3,7 @@
 use super::rank::Elimination;
 use super::{Source, Train};
 use crate::plant::error::PlantError;
-use crate::plant::vibration::{Decay, Network, Spring};
+use crate::plant::vibration::{Decay, Modes, Network, Spring};
 
 /// Natural frequencies and shapes.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,15 +42,15 @@ impl Train {
         Ok(TrainModes { omega, shapes })
     }
 
-    /// Damped vibrations and decays about standstill, the slowest first; one of each conjugate pair. None of what
+    /// Damped vibrations and decays about standstill, from the train's modes, the slowest first; one of each conjugate pair. None of what
     /// neither swings nor decays. Of the torques, lines alone count, with their slopes. See [`Network::decays`].
     ///
     /// # Errors
-    /// [`PlantError`] as [`build`](Self::build), and [`PlantError::Count`] where the eigenvalues are not found.
-    pub fn decays(&self) -> Result<Vec<Decay>, PlantError> {
-        self.validate()?;
-        let network = self.network();
-        network.decays(&network.modes(usize::MAX))
+    /// [`PlantError::Count`] where the eigenvalues are not found.
+    pub fn decays(&self, modes: &TrainModes) -> Result<Vec<Decay>, PlantError> {
+        let rigid_motions = modes.rigid_motions();
+        let (omega, shapes) = (modes.omega[rigid_motions..].to_vec(), modes.shapes[rigid_motions..].to_vec());
+        self.network().decays(&Modes { omega, shapes, rigid_motions })
     }
 
     /// Inertias, dampings, and mean stiffnesses.
