@@ -65,7 +65,8 @@ impl LoopPart {
             Some(GainSource::Governor(design)) => {
                 let LoopPart { forward: share, acceleration, averaging, .. } = *governor;
                 let design = GovernorDesign { share, acceleration, ..*design };
-                design.try_robust(&M::TWO_MASS, averaging, &M::ROBUSTNESS)
+                // a lag of the estimates counts where there is no observer
+                design.try_robust(&M::TWO_MASS, self.observer(), averaging, &M::ROBUSTNESS)
             }
             None => Ok(()),
         };
@@ -75,14 +76,24 @@ impl LoopPart {
         }
     }
 
+    const fn observer(&self) -> Option<LoopObserver<'_>> {
+        match (&self.two_mass, &self.rigid) {
+            (Some(design), _) => Some(LoopObserver::TwoMass(design)),
+            (None, Some(design)) => Some(LoopObserver::Rigid(design)),
+            (None, None) => None,
+        }
+    }
+
     const fn speed_loop_refused<M: Machine>(&self, design: &SpeedLoopDesign, governor: &Self) -> Option<&'static str> {
-        let observer = match (&self.two_mass, &self.rigid) {
-            (Some(design), _) => LoopObserver::TwoMass(design),
-            (None, Some(design)) => LoopObserver::Rigid(design),
-            (None, None) => return None,
-        };
+        let Some(observer) = self.observer() else { return None };
         let late = match governor.averaging {
             Averaging::None => 0.0,
+            Averaging::Ticks(_) if governor.damping != 0.0 => {
+                return Some(
+                    "a damping takes the twist rate, of which an average of the motor's speed leaves no part: give the \
+                    governor the damping or the average, not both",
+                );
+            }
             // its phase; its gain is below one
             Averaging::Ticks(ticks) => 0.5 * (ticks as f64 - 1.0) * M::PERIOD,
             Averaging::Cycle(_) => {

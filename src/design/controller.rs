@@ -5,6 +5,7 @@
 //! from `theta_m - theta_m^ = (1 - K_1) i` leaves the governor's torque as `u = -(Q tau + P theta_m)/D_o`. `D_o` is the
 //! polynomial of the observer's poles; all of it is in closed form, in `z - 1`.
 
+use super::complex::{Complex, over, plus, scaled, times};
 use super::plant::Twist;
 use super::polynomial::Polynomial;
 use super::{ExactStep, LoopObserver, PlacedObserver, RigidDesign, SpeedLoopDesign, TwoMassDesign};
@@ -12,11 +13,14 @@ use crate::machine::TwoMass;
 use crate::math::exp_m1;
 
 /// The observer's model and gains, in the coordinates of mean motion and twist.
+#[derive(Clone, Copy)]
 pub(super) struct Observer {
     pub period: f64,
     /// 1/J, 1/J_m, 1/J_l and J_l/J.
     inverse: [f64; 3],
     share: f64,
+    /// Stiffness and damping of the shaft.
+    shaft: [f64; 2],
     step: ExactStep,
     twist: Twist,
     /// Whole angle of the motor, mean angle, mean speed, twist, twist rate, load torque, each per radian of innovation.
@@ -37,6 +41,7 @@ impl Observer {
             period,
             inverse: [1.0 / total, 1.0 / jm, 1.0 / jl],
             share,
+            shaft: [machine.stiffness, machine.damping],
             step: *step,
             twist: Twist::of(step),
             angle,
@@ -55,6 +60,7 @@ impl Observer {
             period: design.period,
             inverse: [1.0 / design.machine.inertia, 0.0, 0.0],
             share: 0.0,
+            shaft: [0.0; 2],
             step: ExactStep { n11: 0.0, n12: 0.0, g1: 0.0, n21: 0.0, n22: 0.0, g2: 0.0, lag: 0.0 },
             twist: Twist { numerator: Polynomial::new([0.0]), denominator: Polynomial::ONE },
             angle,
@@ -63,6 +69,46 @@ impl Observer {
             twist_gain: 0.0,
             slip: 0.0,
             load_torque,
+        }
+    }
+
+    /// Motion of the model under torques of motor and load, with the corrections by so much innovation.
+    const fn motion(&self, torque: Complex, load: Complex, innovation: Complex, d: Complex) -> Motion {
+        let (t, n, [per_total, per_motor, per_load]) = (self.period, &self.step, self.inverse);
+        let moves = scaled(per_total, plus(torque, scaled(-1.0, load)));
+        let mean = over(plus(scaled(t, moves), scaled(self.mean_speed, innovation)), d);
+        let glides = plus(scaled(t, mean), scaled(0.5 * t * t, moves));
+        let angle = over(plus(glides, scaled(self.mean_angle, innovation)), d);
+        let forced = plus(scaled(per_motor, torque), scaled(per_load, load));
+        let twists = plus(scaled(n.g1, forced), scaled(self.twist_gain, innovation));
+        let slips = plus(scaled(n.g2, forced), scaled(self.slip, innovation));
+        let (a, b) = ((d.0 - n.n11, d.1), (d.0 - n.n22, d.1));
+        let determinant = plus(times(a, b), (-n.n12 * n.n21, 0.0));
+        let twist = over(plus(times(b, twists), scaled(n.n12, slips)), determinant);
+        let slip = over(plus(scaled(n.n21, twists), times(a, slips)), determinant);
+        Motion {
+            angle: plus(angle, scaled(self.share, twist)),
+            speed: plus(mean, scaled(self.share, slip)),
+            shaft_torque: plus(scaled(self.shaft[0], twist), scaled(self.shaft[1], slip)),
+            load_torque: load,
+        }
+    }
+
+    /// Response of the motion to a torque of the motor.
+    pub const fn driven(&self, d: Complex) -> Motion {
+        self.motion((1.0, 0.0), (0.0, 0.0), (0.0, 0.0), d)
+    }
+
+    /// Response of the estimates to the motor's angle beyond the model's.
+    pub const fn corrected(&self, z: Complex, d: Complex) -> Motion {
+        let load = over(scaled(self.load_torque, z), d);
+        let seen = self.motion((0.0, 0.0), load, z, d);
+        let innovation = over((1.0, 0.0), (1.0 - self.angle + seen.angle.0, seen.angle.1));
+        Motion {
+            angle: times(innovation, seen.angle),
+            speed: times(innovation, seen.speed),
+            shaft_torque: times(innovation, seen.shaft_torque),
+            load_torque: times(innovation, seen.load_torque),
         }
     }
 
@@ -119,6 +165,15 @@ impl Observer {
     }
 }
 
+/// Responses of the motor's angle and speed and of the torques in shaft and load.
+#[derive(Clone, Copy)]
+pub(super) struct Motion {
+    pub angle: Complex,
+    pub speed: Complex,
+    pub shaft_torque: Complex,
+    pub load_torque: Complex,
+}
+
 /// Observer and speed loop between the motor's angle and the torque: `u = -(Q tau + P theta_m)/D`, polynomials in
 /// `z - 1`, the constant first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -136,15 +191,19 @@ impl LoopObserver<'_> {
     /// This observer with a speed loop, apart from actuator and machine.
     #[must_use]
     pub const fn controller(&self, speed_loop: &SpeedLoopDesign) -> Controller {
-        let observer = match self {
+        let [denominator, of_torque, of_angle] = self.model().controller(speed_loop);
+        Controller { denominator: denominator.first(), of_torque: of_torque.first(), of_angle: of_angle.first() }
+    }
+
+    /// Its model and gains.
+    pub(super) const fn model(&self) -> Observer {
+        match self {
             Self::TwoMass(TwoMassDesign { machine, step, gains, period, .. })
             | Self::Placed(PlacedObserver { machine, step, gains, period, .. }) => {
                 Observer::of_two_masses(machine, step, *gains, *period)
             }
             Self::Rigid(design) => Observer::of_one_mass(design),
-        };
-        let [denominator, of_torque, of_angle] = observer.controller(speed_loop);
-        Controller { denominator: denominator.first(), of_torque: of_torque.first(), of_angle: of_angle.first() }
+        }
     }
 }
 

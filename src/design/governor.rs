@@ -21,7 +21,7 @@
 use super::late_loop::{Averaging, Late, LateLoop};
 use super::margins::{Margins, OpenLoop};
 use super::tuning::Rate;
-use super::{Error, ExactStep, NaturalDamping, Robustness};
+use super::{Error, ExactStep, LoopObserver, NaturalDamping, Robustness};
 use crate::machine::TwoMass;
 use crate::math::sqrt;
 
@@ -272,20 +272,27 @@ impl GovernorDesign {
         self.margins_behind(machine, Averaging::None)
     }
 
-    /// Whether the loop round a machine, with an average of the speed in it, has the required margins.
+    /// Whether the loop round a machine has the required margins: with the observer whose estimates the governor takes,
+    /// or with the speed as known, and with an average of the speed.
     ///
     /// # Errors
     /// [`Error::GovernorUnstable`], [`Error::GovernorGain`], [`Error::GovernorPhase`].
     pub const fn try_robust(
         &self,
         machine: &TwoMass,
+        observer: Option<LoopObserver<'_>>,
         averaging: Averaging,
         robustness: &Robustness,
     ) -> Result<(), Error> {
-        if !self.open(machine, averaging).is_stable(self.crossover()) {
+        let observer = match observer {
+            Some(observer) => Some(observer.model()),
+            None => None,
+        };
+        let open = LateLoop { observer, ..self.open(machine, averaging) };
+        if !open.is_stable(self.crossover()) {
             return Err(Error::GovernorUnstable);
         }
-        let margins = self.margins_behind(machine, averaging);
+        let margins = self.margins_of(open);
         if !(margins.gain_up >= robustness.gain && margins.gain_down * robustness.gain <= 1.0) {
             Err(Error::GovernorGain)
         } else if !(margins.phase >= robustness.phase) {
@@ -298,7 +305,11 @@ impl GovernorDesign {
     /// [`margins`](Self::margins) with an average of the speed in the loop.
     #[must_use]
     pub const fn margins_behind(&self, machine: &TwoMass, averaging: Averaging) -> Margins {
-        let open = OpenLoop::Late(self.open(machine, averaging));
+        self.margins_of(self.open(machine, averaging))
+    }
+
+    const fn margins_of(&self, open: LateLoop) -> Margins {
+        let (machine, open) = (open.machine, OpenLoop::Late(open));
         let nyquist = core::f64::consts::PI / self.period;
         let mut found = Margins::NONE;
         // A negative natural damping sets a least gain, at a frequency far below the crossover. A large one lowers the
@@ -331,6 +342,7 @@ impl GovernorDesign {
             integral: self.integral,
             late: Late { delay, lag, share: self.share, inertia, estimate: self.lag },
             averaging,
+            observer: None,
             natural: if self.natural.motor == 0.0 && self.natural.load == 0.0 {
                 None
             } else {

@@ -2,7 +2,8 @@
 //! a lag.
 
 use super::ExactStep;
-use super::complex::{Complex, over, times};
+use super::complex::{Complex, over, plus, scaled, times};
+use super::controller::Observer;
 use super::natural_damping::{DampedStep, NaturalDamping};
 use crate::machine::TwoMass;
 use crate::math::{atan2, exp, ln, sin_cos};
@@ -61,6 +62,8 @@ pub(super) struct LateLoop {
     /// The natural damping and its step; none on a free machine.
     pub natural: Option<(NaturalDamping, DampedStep)>,
     pub averaging: Averaging,
+    /// The observer whose estimates the governor takes; without one the speed is known.
+    pub observer: Option<Observer>,
 }
 
 /// Delays beyond the tick, in continuous time.
@@ -79,18 +82,29 @@ pub(super) struct Late {
 impl LateLoop {
     /// Response at a frequency (rad/s), positive where the feedback opposes.
     pub(super) const fn response(&self, frequency: f64) -> Complex {
-        let angle = frequency * self.period;
-        let (half, _) = sin_cos(0.5 * angle);
-        let (sine, cosine) = sin_cos(angle);
-        let z = (cosine, sine);
+        let [by_motion, told] = self.parts(frequency);
+        over(by_motion, told)
+    }
+
+    /// The response as a ratio: by the machine's motion, over 1 and what the governor gives by the reported torque
+    /// alone. Their sum is zero at the poles of the closed loop, and itself has those of machine and governor alone.
+    const fn parts(&self, frequency: f64) -> [Complex; 2] {
+        let (sine, cosine) = sin_cos(0.5 * frequency * self.period);
         // z - 1 without cancellation.
-        let d = (-2.0 * half * half, sine);
+        let d = (-2.0 * sine * sine, 2.0 * sine * cosine);
+        let z = (1.0 + d.0, d.1);
         if let Some((_, step)) = &self.natural {
             let [motor, load] = step.response(d);
             let (jm, jl) = (self.machine.motor_inertia, self.machine.load_inertia);
             let momentum = (jm * motor.0 + jl * load.0, jm * motor.1 + jl * load.1);
+            if let Some(observer) = &self.observer {
+                return self.seen(observer, Some(motor), z, d, frequency);
+            }
             let moved = times((d.0 / self.period, d.1 / self.period), momentum);
             return self.with_late(times(self.controller(z, d), motor), moved, z, frequency);
+        }
+        if let Some(observer) = &self.observer {
+            return self.seen(observer, None, z, d, frequency);
         }
         let n = &self.step;
         let (a, b) = ((d.0 - n.n11, d.1), (d.0 - n.n22, d.1));
@@ -116,12 +130,11 @@ impl LateLoop {
     /// The response with delays: `A (V L + (g + s) F M)/(1 - g F A + s (1 - F) A)`. M is the mean torque that
     /// accelerates the masses, by their motion, over the torque that acts: 1 without natural damping. V is the average
     /// of the speed, and part of F where it averages the load torque too.
-    const fn with_late(&self, speed: Complex, moved: Complex, z: Complex, frequency: f64) -> Complex {
+    const fn with_late(&self, speed: Complex, moved: Complex, z: Complex, frequency: f64) -> [Complex; 2] {
         let average = self.averaging.response(frequency, self.period);
         let prompt = over(times(average, speed), z);
         let Late { delay, lag, share, inertia, estimate } = self.late;
-        let (sine, cosine) = sin_cos(frequency * delay);
-        let actuator = over((cosine, -sine), (1.0, frequency * lag));
+        let actuator = actuator(delay, lag, frequency);
         let taken = share + inertia;
         let filter = over(over((taken, 0.0), (1.0, frequency * estimate)), z);
         let filter = if let Averaging::Ticks(_) = self.averaging { times(filter, average) } else { filter };
@@ -129,7 +142,49 @@ impl LateLoop {
         let own = over((inertia, 0.0), z);
         let fed = times((filter.0 - own.0, filter.1 - own.1), actuator);
         let seen = times(filter, moved);
-        over(times(actuator, (prompt.0 + seen.0, prompt.1 + seen.1)), (1.0 - fed.0, -fed.1))
+        [times(actuator, (prompt.0 + seen.0, prompt.1 + seen.1)), (1.0 - fed.0, -fed.1)]
+    }
+
+    /// With an observer, which is told the torque as reported. Its estimates are `E_t tau + E_i (theta - P^ tau)`, with
+    /// its model's angle `P^`; the machine's is `P g tau` with the torque times g. The governor gives `-c` of them, so
+    /// `1 + A c (E_t - E_i P^) + g A c E_i P` is zero at the closed loop's poles.
+    const fn seen(
+        &self,
+        observer: &Observer,
+        damped: Option<Complex>,
+        z: Complex,
+        d: Complex,
+        frequency: f64,
+    ) -> [Complex; 2] {
+        let machine = Observer::of_two_masses(&self.machine, &self.step, [0.0; 5], self.period).driven(d);
+        // a natural damping changes the angle as it changes the speed
+        let angle = match damped {
+            Some(speed) => times(machine.angle, over(speed, machine.speed)),
+            None => machine.angle,
+        };
+        let (told, corrected) = (observer.driven(d), observer.corrected(z, d));
+        let Late { delay, lag, share, inertia, .. } = self.late;
+        let acceleration = inertia * self.machine.total_inertia() / self.machine.load_inertia;
+        let average = self.averaging.response(frequency, self.period);
+        let of_speed = times(average, self.controller(z, d));
+        let of_load = if let Averaging::Ticks(_) = self.averaging { average } else { (1.0, 0.0) };
+        let of_load = scaled(-share - acceleration, of_load);
+        let acts = over(actuator(delay, lag, frequency), z);
+        let by_correction = plus(
+            plus(times(of_speed, corrected.speed), times(of_load, corrected.load_torque)),
+            scaled(acceleration, corrected.shaft_torque),
+        );
+        let by_torque = plus(times(of_speed, told.speed), scaled(acceleration, told.shaft_torque));
+        let by_torque = plus(by_torque, scaled(-1.0, times(by_correction, told.angle)));
+        [times(times(acts, by_correction), angle), plus((1.0, 0.0), times(acts, by_torque))]
+    }
+
+    /// 1 and the response. With an observer the sum of both parts, whose poles are those of the machine, of the integral
+    /// and of the observer, all known.
+    const fn returned(&self, frequency: f64) -> Complex {
+        let [by_motion, told] = self.parts(frequency);
+        let sum = plus(by_motion, told);
+        if self.observer.is_some() { sum } else { over(sum, told) }
     }
 
     /// Whether the closed loop of a proportional and integral controller is stable, by Nyquist's criterion. A free
@@ -156,16 +211,14 @@ impl LateLoop {
         let edges = [slowest, 1e-3 * bandwidth, 0.8 * ws, 0.99 * wr, 1.01 * wr, 1.25 * wr, nyquist];
         let mut turned = 0.0;
         let mut low = edges[0];
-        let first = self.response(low);
-        let mut before = (1.0 + first.0, first.1);
+        let mut before = self.returned(low);
         each!(edge, 1..edges.len(), {
             let high = if edges[edge] < nyquist { edges[edge] } else { nyquist };
             if high > low {
                 let factor = exp(ln(high / low) / 80.0);
                 each!(point, 0..80, {
                     low = if point == 79 { high } else { low * factor };
-                    let response = self.response(low);
-                    let after = (1.0 + response.0, response.1);
+                    let after = self.returned(low);
                     let turn = over(after, before);
                     turned += atan2(turn.1, turn.0);
                     before = after;
@@ -175,4 +228,10 @@ impl LateLoop {
         // Every unstable pole turns it back by half a turn.
         turned > expected * core::f64::consts::PI
     }
+}
+
+/// Response of the actuator.
+const fn actuator(delay: f64, lag: f64, frequency: f64) -> Complex {
+    let (sine, cosine) = sin_cos(frequency * delay);
+    over((cosine, -sine), (1.0, frequency * lag))
 }

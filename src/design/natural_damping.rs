@@ -1,6 +1,6 @@
 //! Natural damping: what the characteristics of prime mover and load add to a speed loop by themselves.
 
-use super::complex::Complex;
+use super::complex::{Complex, over, plus, scaled, times};
 use super::{Error, Matrix, discretise};
 use crate::machine::{Characteristic, Speed, TwoMass};
 
@@ -91,23 +91,22 @@ pub(super) struct DampedStep {
 impl DampedStep {
     /// Response of the motor's and the load's speed to the torque, at `z - 1`.
     pub(super) const fn response(&self, less_one: Complex) -> [Complex; 2] {
-        // Real and imaginary parts of (z - F) x = G, one above the other.
-        let mut whole = Matrix::<6, 6>::ZERO;
-        let mut right = Matrix::<6, 1>::ZERO;
-        each!(i, 0..3, {
-            each!(j, 0..3, {
-                let unit = if i == j { 1.0 } else { 0.0 };
-                let real = unit * less_one.0 - (self.f.0[i][j] - unit);
-                whole.0[i][j] = real;
-                whole.0[i + 3][j + 3] = real;
-                whole.0[i][j + 3] = -unit * less_one.1;
-                whole.0[i + 3][j] = unit * less_one.1;
-            });
-            right.0[i][0] = self.g.0[i][0];
-        });
-        match whole.solve(&right) {
-            Some(x) => [(x.0[1][0], x.0[4][0]), (x.0[2][0], x.0[5][0])],
-            None => [(f64::INFINITY, 0.0); 2],
-        }
+        let (f, [[g0], [g1], [g2]]) = (&self.f.0, self.g.0);
+        // (z - F) x = G with the twist, of the first row, put into the others; times the twist's coefficient
+        let pivot = (less_one.0 - (f[0][0] - 1.0), less_one.1);
+        let (a, b) = (reduced(pivot, less_one, f, 1, 1), reduced(pivot, less_one, f, 1, 2));
+        let (c, e) = (reduced(pivot, less_one, f, 2, 1), reduced(pivot, less_one, f, 2, 2));
+        let (p, q) = (plus(scaled(g1, pivot), (f[1][0] * g0, 0.0)), plus(scaled(g2, pivot), (f[2][0] * g0, 0.0)));
+        let determinant = plus(times(a, e), scaled(-1.0, times(b, c)));
+        let motor = plus(times(p, e), scaled(-1.0, times(b, q)));
+        let load = plus(times(a, q), scaled(-1.0, times(c, p)));
+        [over(motor, determinant), over(load, determinant)]
     }
+}
+
+/// Entry of z - F times the first, without what the first row takes.
+const fn reduced(pivot: Complex, less_one: Complex, f: &[[f64; 3]; 3], row: usize, column: usize) -> Complex {
+    let unit = if row == column { 1.0 } else { 0.0 };
+    let own = (unit * less_one.0 - (f[row][column] - unit), unit * less_one.1);
+    plus(times(own, pivot), (-f[row][0] * f[0][column], 0.0))
 }

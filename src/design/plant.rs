@@ -93,6 +93,7 @@ impl Plant {
 }
 
 /// The twist's answer to a forcing that is held over a tick.
+#[derive(Clone, Copy)]
 pub(super) struct Twist {
     pub numerator: Polynomial,
     pub denominator: Polynomial,
