@@ -4,6 +4,12 @@ use core::fmt;
 use core::ops::{BitAnd, BitOr, BitOrAssign};
 
 /// A set of faults.
+///
+/// ```
+/// use driveline::fault::Faults;
+/// let faults = Faults::NONE.with(Faults::TORQUE).with(Faults::SETPOINT);
+/// assert!(faults.contains(Faults::TORQUE) && !faults.contains(Faults::ANGLE_LOST));
+/// ```
 #[derive(Clone, Copy, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Faults(u32);

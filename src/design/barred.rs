@@ -7,6 +7,13 @@ use crate::machine::{Cylinder, Modes, phasor_sum};
 pub const USUAL_MARGIN: f64 = 0.1;
 
 /// Barred ranges of speed, rising and apart, at most `K`.
+///
+/// ```
+/// use driveline::design::{BarredSpeeds, USUAL_MARGIN};
+/// // an engine's order 1.5 on a coupling of 20 Hz: 83.8 rad/s
+/// let barred = BarredSpeeds::<1>::new(&[125.66], &[1.5], USUAL_MARGIN, 140.0);
+/// assert!(barred.ranges()[0][0] < 83.8 && barred.ranges()[0][1] > 83.8);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BarredSpeeds<const K: usize> {

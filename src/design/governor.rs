@@ -26,6 +26,12 @@ use crate::machine::TwoMass;
 use crate::math::sqrt;
 
 /// Dead time and lag of the actuator.
+///
+/// ```
+/// use driveline::design::Actuator;
+/// // six cylinders, four-stroke, 1500 r/min: half of 13.3 ms between firings, and a quarter of a turn
+/// assert!((Actuator::firing_delay(6, true, 157.08) - 0.0167).abs() < 1e-4);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Actuator {
@@ -93,6 +99,15 @@ pub struct VirtualInertia {
 }
 
 /// Design of a governor for a slow actuator.
+///
+/// ```
+/// use driveline::design::{Actuator, LoadFeedForward, Rate};
+/// use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
+/// let stiff = TwoMass::new(Inertia(4.0), Inertia(8.0), Stiffness(5.0e7), Damping(6.0e4));
+/// let valve = Actuator { delay: 0.0, lag: 0.1 };
+/// let design = stiff.governor(Rate::hz(10_000), valve, 2.0, LoadFeedForward::NONE);
+/// assert!((design.margins(&stiff).phase.to_degrees() - 37.0).abs() < 0.5); // atan 2 - atan 1/2
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct GovernorDesign {

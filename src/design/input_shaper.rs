@@ -12,6 +12,13 @@ use crate::machine::{Length, STANDARD_GRAVITY};
 use crate::math::{exp, hypot, sin_cos, sqrt};
 
 /// Design of an [`InputShaper`](crate::governor::InputShaper).
+///
+/// ```
+/// use driveline::design::InputShaperDesign;
+/// let shaper = InputShaperDesign::new(1.8, 0.0);
+/// assert!(shaper.residual(2, 1.8, 0.0) < 1e-9); // two parts leave nothing of the swing
+/// assert!(shaper.residual(3, 2.0, 0.0) < shaper.residual(2, 2.0, 0.0)); // three bear another rope
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct InputShaperDesign {

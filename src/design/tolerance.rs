@@ -5,6 +5,12 @@ use crate::machine::TwoMass;
 use crate::math::{exp, ln};
 
 /// Between which factors of its value a quantity lies.
+///
+/// ```
+/// use driveline::design::Spread;
+/// let [tenth, rope] = [Spread::within(0.1), Spread::between(0.4, 2.4)];
+/// assert!((tenth.max - 1.1).abs() < 1e-12 && rope.min == 0.4);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Spread {

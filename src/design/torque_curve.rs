@@ -7,6 +7,12 @@ use crate::machine::{Characteristic, Speed};
 ///
 /// A power limit P is put in at the points: between two whose speeds differ by a ratio r the line lies above P/omega by
 /// at most `(sqrt(r) - 1/sqrt(r))^2/4` of it (0.23 % at r = 1.1), its chord's excess.
+///
+/// ```
+/// use driveline::design::TorqueCurve;
+/// let curve = TorqueCurve::through([[0.0, 300.0], [100.0, 300.0], [200.0, 300.0]]).with_power_limit(30_000.0);
+/// assert!((curve.points()[2][1] - 150.0).abs() < 1e-9); // 30 kW at 200 rad/s
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TorqueCurve<const K: usize> {

@@ -4,6 +4,12 @@ use super::Error;
 use crate::math::sqrt;
 
 /// Sample rate of the controller.
+///
+/// ```
+/// use driveline::design::Rate;
+/// assert_eq!(Rate::hz(10_000).period(), Ok(1e-4));
+/// assert!(Rate::hz(0).period().is_err());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Rate(f64);

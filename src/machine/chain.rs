@@ -60,6 +60,12 @@ impl Shaft {
 /// becomes part of the estimated load torque. Only [`gravity_torque_hoisting`](Self::gravity_torque_hoisting) and
 /// [`gravity_torque_lowering`](Self::gravity_torque_lowering) use the efficiency, unless the chain begins with
 /// [`starting`](Self::starting) or [`braking`](Self::braking).
+///
+/// ```
+/// use driveline::machine::{Chain, Damping, Inertia, Stiffness};
+/// let roll = Chain::motor(Inertia(0.35)).shaft(Stiffness(2.0e4), Damping(0.5)).rotor(Inertia(0.48));
+/// assert!((roll.total_inertia() - 0.83).abs() < 1e-12);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Chain {

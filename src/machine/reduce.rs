@@ -10,6 +10,13 @@ use super::{Chain, Error, Mode, Modes, ReductionError, TwoMass};
 /// `Train::of(chain)` has the other choice. That of a train has the largest share of the static compliance at the
 /// motor: a lower mode, such as nearly equal branches in opposition, is left out with the antiresonance that nearly
 /// cancels it.
+///
+/// ```
+/// use driveline::machine::{Chain, Damping, Inertia, Match, Stiffness};
+/// let chain = Chain::motor(Inertia(0.5)).shaft(Stiffness(1.0e4), Damping(0.5)).rotor(Inertia(0.3));
+/// let reduced = chain.reduce(Match::ResonanceAntiresonance);
+/// assert!((reduced.load_inertia - 0.3).abs() < 1e-9); // two masses stand for themselves
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Match {

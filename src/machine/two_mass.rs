@@ -8,6 +8,12 @@ use crate::math::sqrt;
 ///
 /// `J_m phi_m'' = tau_m - tau_s`, `J_l phi_l'' = tau_s - tau_L`, `tau_s = k delta + d delta'` with the twist
 /// `delta = phi_m - phi_l`.
+///
+/// ```
+/// use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
+/// let machine = TwoMass::new(Inertia(0.5), Inertia(0.5), Stiffness(1.0e4), Damping(0.0));
+/// assert!((machine.resonance() - 200.0).abs() < 1e-9); // rad/s: the reduced inertia is 0.25 kg m2
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TwoMass {

@@ -9,6 +9,12 @@ use crate::math::sqrt;
 ///
 /// It passes through the rated point where the breakdown speed is that of Wang 1989 (1-8). It brakes above synchronous
 /// speed, and when turned backwards (plugging), as a crane when lowering.
+///
+/// ```
+/// use driveline::machine::{Induction, Speed, Torque};
+/// let motor = Induction::new(Speed(154.99), Torque(750.0), Speed(157.08), 2.5);
+/// assert!((motor.torque(motor.breakdown_speed()).0 / 750.0 - 2.5).abs() < 1e-9);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Induction {
