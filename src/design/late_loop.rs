@@ -179,8 +179,8 @@ impl LateLoop {
         [times(times(acts, by_correction), angle), plus((1.0, 0.0), times(acts, by_torque))]
     }
 
-    /// 1 and the response. With an observer the sum of both parts, whose poles are those of the machine, of the integral
-    /// and of the observer, all known.
+    /// 1 and the response. With an observer it is the sum of both parts, whose poles are those of the machine, of the
+    /// integral and of the observer, all known.
     const fn returned(&self, frequency: f64) -> Complex {
         let [by_motion, told] = self.parts(frequency);
         let sum = plus(by_motion, told);

@@ -68,9 +68,9 @@ fn an_average_of_the_speed_is_in_the_loop_s_test() {
 }
 
 /// The observer is in the governor's loop. Gain and phase (degrees) at which a loop turns unstable are those by the
-/// eigenvalues of machine, observer, actuator and governor in states of their own, in numpy, of drawn loops: all but the
-/// last have 6 dB and 30 degrees where the speed is known. The bounds are 3 % and 1 degree, for a lag that is held
-/// within a tick there and not here.
+/// eigenvalues of machine, observer, actuator and governor in states of their own, in numpy, of drawn loops. All have 6
+/// dB and 30 degrees where the speed is known. The bounds are 3 % and 1 degree: a lag is held within a tick there and
+/// not here.
 #[test]
 fn the_observer_is_in_the_loop_of_a_composed_governor() {
     // inertias, stiffness, damping; ticks a second, lines; rated torque, its share at once, within; delay, lag; factor
