@@ -103,18 +103,12 @@ impl Body {
         }
     }
 
-    /// The motion, and how much slower than the motor each coordinate turns, but of a chain.
-    fn moving(&self) -> (&Motion, Option<&[f64]>) {
-        self.chain().map_or_else(|train| (train.recording.motion(), Some(&train.ratios[..])), |plant| (&**plant, None))
-    }
-
-    fn ratio(&self, node: usize) -> f64 {
-        self.moving().1.map_or(1.0, |ratios| ratios[node])
-    }
-
     /// Angle of the motor (rad).
     pub fn motor_angle(&self) -> f64 {
-        self.moving().0.angle(0)
+        match self.chain() {
+            Ok(plant) => plant.motor_angle(),
+            Err(train) => train.recording.motion().angle(0),
+        }
     }
 
     /// Speed of the motor (rad/s).
@@ -124,17 +118,26 @@ impl Body {
 
     /// Speed of a node, referred to the motor (rad/s).
     pub fn speed(&self, node: usize) -> f64 {
-        self.moving().0.speed(node) * self.ratio(node)
+        match self.chain() {
+            Ok(plant) => plant.speed(node),
+            Err(train) => train.recording.motion().speed(node) * train.ratios[node],
+        }
     }
 
     /// How many nodes there are.
     pub fn nodes(&self) -> usize {
-        self.moving().0.coordinates()
+        match self.chain() {
+            Ok(plant) => plant.nodes(),
+            Err(train) => train.ratios.len(),
+        }
     }
 
     /// Inertia of a node, referred to the motor (kg m2); NaN where a crank changes it.
     pub fn inertia(&self, node: usize) -> f64 {
-        self.moving().0.inertia(node) / self.ratio(node).powi(2)
+        match self.chain() {
+            Ok(plant) => plant.inertia(node),
+            Err(train) => train.recording.motion().inertia(node) / train.ratios[node].powi(2),
+        }
     }
 
     /// Angular momentum of all nodes about the motor's shaft (N m s); NaN where a crank changes an inertia.
@@ -144,17 +147,26 @@ impl Body {
 
     /// Whether a gap is open or a rope slack now.
     pub fn is_open(&self) -> bool {
-        self.moving().0.is_open()
+        match self.chain() {
+            Ok(plant) => plant.is_open(),
+            Err(train) => train.recording.motion().is_open(),
+        }
     }
 
     /// Whether it has backlash anywhere; a rope is none.
     pub fn has_backlash(&self) -> bool {
-        self.moving().0.has_backlash()
+        match self.chain() {
+            Ok(plant) => plant.has_backlash(),
+            Err(train) => train.recording.motion().has_backlash(),
+        }
     }
 
     /// Twist of a shaft of a chain, referred to the motor, or elongation of a link of a train [rad or m].
     pub fn twist(&self, shaft: usize) -> f64 {
-        self.moving().0.elongation(shaft)
+        match self.chain() {
+            Ok(plant) => plant.twist(shaft),
+            Err(train) => train.recording.motion().elongation(shaft),
+        }
     }
 
     /// Torque of a shaft of a chain as [`Plant::shaft_torque`], or force of a link of a train (N m or N).
@@ -175,7 +187,10 @@ impl Body {
 
     /// Torque of a shaft of a chain as [`Plant::torque_behind_gear`], or force of a link of a train (N m or N).
     pub fn torque_behind_gear(&self, shaft: usize) -> f64 {
-        self.moving().0.force(shaft)
+        match self.chain() {
+            Ok(plant) => plant.torque_behind_gear(shaft),
+            Err(train) => train.recording.motion().force(shaft),
+        }
     }
 
     /// Changes a node's load torque, referred to the motor (N m).
@@ -241,6 +256,9 @@ impl Body {
 
     /// The motion of a train; none of a chain.
     pub fn motion(&self) -> Option<&Motion> {
-        self.chain().err().map(|train| train.recording.motion())
+        match self {
+            Body::Chain(_) | Body::Unrecorded(_) => None,
+            Body::Train(train) => Some(train.recording.motion()),
+        }
     }
 }
