@@ -1,5 +1,6 @@
 //! Input shaping of the setpoint: a swinging load is at rest when the drive is.
 
+use crate::fault::Faults;
 use crate::governor::Governor;
 use crate::number::Number;
 use crate::sample::Estimate;
@@ -147,6 +148,21 @@ impl<N: Number, G: Governor<N>, const SLOTS: usize, const PARTS: usize> Governor
     #[inline(always)]
     fn set_known_torque(&mut self, known_torque: N) {
         self.governor.set_known_torque(known_torque);
+    }
+
+    #[inline(always)]
+    fn set_response(&mut self, config: &Self::Config, torque: N, innovation: N) {
+        self.governor.set_response(&config.governor, torque, innovation);
+    }
+
+    #[inline(always)]
+    fn set_turn_in_hold(&mut self, config: &Self::Config, turned: N) {
+        self.governor.set_turn_in_hold(&config.governor, turned);
+    }
+
+    #[inline(always)]
+    fn faults(&self) -> Faults {
+        self.governor.faults()
     }
 
     #[inline(always)]

@@ -1,5 +1,6 @@
 //! Single ticks of the governors.
 
+use driveline::fault::Faults;
 use driveline::governor::{
     AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, BacklashTakeUp,
     BacklashTakeUpConfig, Barred, BarredConfig, Compensation, Curve, CurveConfig, CurvePiece, CycleAverage, Droop,
@@ -295,6 +296,50 @@ fn a_shaper_hands_on_the_steady_speed_and_a_trip() {
     assert_eq!(shaper.command(&config, &at(100.0)), 0.0);
     shaper.angle_lost(&config, &at(100.0));
     assert_eq!(shaper.permitted(&config, &at(100.0), 5.0), 0.0, "the angle is lost: a tripped governor holds nothing");
+}
+
+/// A governor that notes what it is told, and has a fault.
+#[derive(Default)]
+struct Listener([f64; 3]);
+
+impl Governor<f64> for Listener {
+    type Config = ();
+
+    const COMMANDS: bool = true;
+
+    fn set_setpoint(&mut self, _setpoint: f64) {}
+
+    fn set_response(&mut self, (): &(), torque: f64, innovation: f64) {
+        (self.0[0], self.0[1]) = (torque, innovation);
+    }
+
+    fn set_turn_in_hold(&mut self, (): &(), turned: f64) {
+        self.0[2] = turned;
+    }
+
+    fn faults(&self) -> Faults {
+        Faults::OVERSPEED
+    }
+
+    fn command(&mut self, (): &(), _estimate: &Estimate<f64>) -> f64 {
+        self.0[0]
+    }
+
+    fn permitted(&self, (): &(), _estimate: &Estimate<f64>, torque: f64) -> f64 {
+        torque
+    }
+
+    fn start(&mut self, (): &(), _estimate: &Estimate<f64>, _torque: f64) {}
+}
+
+/// A supervision within a shaper hears of the response and of a slipping brake, and is heard.
+#[test]
+fn a_shaper_hands_on_what_a_supervision_hears_and_says() {
+    let config = InputShaperConfig { ramp: 1.0, slot: 10, share: 0.5, governor: () };
+    let mut shaper = InputShaper::<Listener, 2, 3, f64>::default();
+    shaper.set_response(&config, 5.0, 6.0);
+    shaper.set_turn_in_hold(&config, 7.0);
+    assert_eq!((shaper.governor().0, shaper.faults()), ([5.0, 6.0, 7.0], Faults::OVERSPEED));
 }
 
 #[test]
