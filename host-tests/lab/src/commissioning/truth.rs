@@ -32,7 +32,8 @@ impl Truth {
         let total: f64 = inertia.iter().sum();
         let motor = total * (antiresonance / resonance).powi(2);
         let load = total - motor;
-        let swings = free.decays().unwrap_or_default().into_iter().filter(|swing| swing.omega > 1.0e-3 * resonance);
+        let decays = free.modes().and_then(|modes| free.decays(&modes)).unwrap_or_default();
+        let swings = decays.into_iter().filter(|swing| swing.omega > 1.0e-3 * resonance);
         let ratio = swings.min_by(|a, b| a.omega.total_cmp(&b.omega)).map_or(0.0, |slowest| slowest.damping_ratio());
         let stiffness = load * antiresonance * antiresonance;
         let damping = 2.0 * ratio * resonance * motor * load / total;

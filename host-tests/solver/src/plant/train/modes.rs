@@ -42,8 +42,9 @@ impl Train {
         Ok(TrainModes { omega, shapes })
     }
 
-    /// Damped vibrations and decays about standstill, from the train's modes, the slowest first; one of each conjugate pair. None of what
-    /// neither swings nor decays. Of the torques, lines alone count, with their slopes. See [`Network::decays`].
+    /// Damped vibrations and decays about standstill, from the train's modes, the slowest first; one of each conjugate
+    /// pair. None of what neither swings nor decays. Of the torques, lines alone count, with their slopes. See
+    /// [`Network::decays`].
     ///
     /// # Errors
     /// [`PlantError::Count`] where the eigenvalues are not found.
