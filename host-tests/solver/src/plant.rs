@@ -43,7 +43,7 @@
 //! # Ok::<(), driveline_solver::plant::PlantError>(())
 //! ```
 //!
-//! - [`Chain`] describes, [`Plant`] runs it as the [train](train) that it is, [`train::Source`] and [`LoadProgram`] excite,
+//! - [`Chain`] describes, [`Plant`] runs it as the [`train`] that it is, [`train::Source`] and [`LoadProgram`] drive it,
 //!   [`Event`] reports;
 //! - [`converge`] proves a run with another integrator.
 
