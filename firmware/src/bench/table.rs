@@ -46,10 +46,7 @@ pub fn run<V: Variant, B: Board>(bench: &mut Bench<'_, B>, tick: Measured<V::Sce
     correction::solves(bench);
     correction::accuracy(bench);
     advice::all(bench);
-    // the instructions of Armv6-M, which has no such atomics, are fewer; straight-line kernels always take the same
-    // count, so a long run skips them
+    // the instructions of Armv6-M, which has no such atomics, are fewer
     #[cfg(target_has_atomic = "32")]
-    if super::calls() == super::CALLS as u32 {
-        super::kernels::all(bench);
-    }
+    super::kernels::all(bench);
 }

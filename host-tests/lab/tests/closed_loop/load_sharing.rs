@@ -120,7 +120,10 @@ fn biased(variant: &str, pinions: &[Pinion; MOTORS]) -> Result<Biased, Box<dyn s
 
 /// Peak of the pinions' torques in the reversal (N m), and how often a pinion left a flank in it, by a plain loop.
 fn plain(pinions: &[Pinion; MOTORS]) -> Result<(f64, u32), Box<dyn std::error::Error>> {
-    let config = <PlainDrive as Configure<ConverterRing, f32>>::CONFIG;
+    let mut config = <PlainDrive as Configure<ConverterRing, f32>>::CONFIG;
+    // rated speed in a fifth of a second, which is more than the motors can
+    config.governor.damping = 0.0;
+    config.governor.ramp *= (5.0 * RATED_SPEED / ConverterRing::RAMP) as f32;
     let mut drive = EqualTorque { drive: PlainDrive::new(&config, 0), config, torque: 0.0 };
     let moments = follow(Words::Single, &mut drive, pinions, [peak, open])?;
     let mut left = 0;
