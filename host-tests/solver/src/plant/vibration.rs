@@ -215,21 +215,33 @@ impl Network {
     /// of steady vibrations; beyond any size at an undamped resonance.
     #[must_use]
     pub fn responses(&self, shifts: &[Complex<f64>], torques: &[Complex<f64>]) -> Vec<Vec<Complex<f64>>> {
+        if shifts.len() < 4 { self.side_by_side::<1>(shifts, torques) } else { self.side_by_side::<4>(shifts, torques) }
+    }
+
+    /// The responses, so many shifts at a time.
+    fn side_by_side<const L: usize>(
+        &self,
+        shifts: &[Complex<f64>],
+        torques: &[Complex<f64>],
+    ) -> Vec<Vec<Complex<f64>>> {
         let cut = self.cut(shifts.iter().map(|shift| shift.norm()).fold(0.0, f64::max));
         let elimination = Elimination::of(&cut);
-        let lane = |value: Complex<f64>| Complexes { re: [value.re], im: [value.im] };
+        let lanes = |of: [Complex<f64>; L]| Complexes { re: of.map(|one| one.re), im: of.map(|one| one.im) };
         let mut factors = Vec::new();
-        let mut response = |&shift: &Complex<f64>| {
-            cut.diagonal(lane(shift), lane(shift * shift), &mut factors);
+        let respond = |some: &[Complex<f64>]| {
+            let shift = lanes(std::array::from_fn(|l| some[l.min(some.len() - 1)]));
+            cut.diagonal(shift, shift.times(shift), &mut factors);
             elimination.run(&mut factors, |_, _| {});
             let mut side = vec![Complexes::ZERO; elimination.nodes()];
             for (side, torque) in side.iter_mut().zip(torques) {
-                *side = lane(*torque);
+                *side = lanes([*torque; L]);
             }
             elimination.solve(&factors, &mut side);
-            side.iter().take(self.size()).map(|angle| Complex::new(angle.re[0], angle.im[0])).collect()
+            side.truncate(self.size());
+            let one = |l: usize| side.iter().map(|angle| Complex::new(angle.re[l], angle.im[l])).collect();
+            (0..some.len()).map(one).collect::<Vec<Vec<_>>>()
         };
-        shifts.iter().map(&mut response).collect()
+        shifts.chunks(L).flat_map(respond).collect()
     }
 }
 
