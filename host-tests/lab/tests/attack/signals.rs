@@ -75,7 +75,7 @@ fn at_moments(line: &str, moments: u64, seconds: f64) {
             std::thread::sleep(Duration::from_millis(20));
         }
         assert_eq!(left(&mark), Vec::<String>::new(), "{at}");
-        let faults = place.faults(&["page.html", "run.csv", "draws"], true);
+        let faults = place.faults(&["page.html", "report.md", "run.csv", "draws"], true);
         assert!(faults.is_empty(), "{faults:?}: {at}");
     }
 }
@@ -105,7 +105,7 @@ fn signals_at_fifty_moments() {
     assert!(status.success());
     let cosim =
         format!("cosim WORK/hoist.toml {} --time 20 --csv WORK/run.csv --html WORK/page.html", machine.display());
-    let report = "report --quick --scene spindle --markdown WORK/page.html";
+    let report = "report --quick --scene spindle --markdown WORK/report.md";
     let runs = [
         (qemu, 12, 8.0),
         (report, 12, 20.0),
