@@ -99,7 +99,9 @@ pub(in crate::machine_file) fn mean_inertia(table: &mut Table<'_>) -> Result<f64
         laws += 1;
     }
     if laws != 1 {
-        return Err(table.wrong("kind", "one of `four_bar`, `toggle`, `cam` and `inertia_table` in a mechanism"));
+        return Err(
+            table.wrong("kind", "exactly one of `four_bar`, `toggle`, `cam` and `inertia_table` in a mechanism")
+        );
     }
     Ok(law.iter().filter(|harmonic| harmonic.order == 0.0).map(|harmonic| harmonic.cosine).sum())
 }
