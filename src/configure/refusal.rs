@@ -4,7 +4,6 @@
 
 use super::{Configure, Machine, Rating};
 use crate::machine::{Speed, Torque};
-use crate::math::sqrt;
 use crate::number::Number;
 
 /// Bytes of a sentence.
@@ -248,20 +247,14 @@ const fn loses<M: Machine>() -> Option<Refusal> {
 
 /// Why the sample rate cannot follow the shaft.
 const fn follows<M: Machine>() -> Option<Refusal> {
-    let machine = M::TWO_MASS;
-    let damping = machine.damping_ratio();
-    if machine.stiffness == 0.0 || damping >= 1.0 {
-        return None;
-    }
-    let frequency = machine.resonance() * sqrt((1.0 - damping) * (1.0 + damping)) / core::f64::consts::TAU;
-    let Err(crate::design::Error::SampleRate) = machine.try_follow(M::RATE) else {
+    let Err(crate::design::Error::SampleRate) = M::TWO_MASS.try_follow(M::RATE) else {
         return None;
     };
     Some(
         Refusal::new("RATE_HZ: ")
             .figure(M::RATE_HZ as f64)
             .and(" ticks a second, more than ")
-            .figure(2.0 * frequency)
+            .figure(M::TWO_MASS.damped_resonance() / core::f64::consts::PI)
             .and(" needed: ")
             .and(crate::design::Error::SampleRate.message()),
     )

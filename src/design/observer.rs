@@ -80,16 +80,10 @@ impl TwoMass {
     /// [`Error::Period`] for a rate that is not positive; [`Error::SampleRate`] where the resonance lies above half of
     /// it and survives a tick.
     pub const fn try_follow(&self, rate: Rate) -> Result<(), Error> {
-        let period = match rate.period() {
-            Ok(period) => period,
-            Err(error) => return Err(error),
-        };
-        let (w, zeta) = (self.resonance(), self.damping_ratio());
-        if zeta < 1.0 {
-            let turned = w * sqrt((1.0 - zeta) * (1.0 + zeta)) * period;
-            if turned >= core::f64::consts::PI && exp(-zeta * w * period) > SURVIVING_SWING {
-                return Err(Error::SampleRate);
-            }
+        let period = get!(rate.period());
+        let decay = self.damping_ratio() * self.resonance();
+        if self.damped_resonance() * period >= core::f64::consts::PI && exp(-decay * period) > SURVIVING_SWING {
+            return Err(Error::SampleRate);
         }
         Ok(())
     }
@@ -112,9 +106,7 @@ impl TwoMass {
         if self.stiffness == 0.0 {
             return Err(Error::Unobservable);
         }
-        if let Err(error) = self.try_follow(rate) {
-            return Err(error);
-        }
+        get!(self.try_follow(rate));
 
         let step = ExactStep::new(self, period);
         let (transition, input) = transition(self, &step, period);

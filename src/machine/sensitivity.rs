@@ -74,11 +74,9 @@ impl Chain {
         let shafts = self.count - 1;
         let mut inertia = self.inertia;
         let mut stiffness = [0.0; CAPACITY - 1];
-        let mut j = 0;
-        while j < shafts {
+        each!(j, 0..shafts, {
             stiffness[j] = self.shaft[j].stiffness;
-            j += 1;
-        }
+        });
         let (resonance, antiresonance) = lowest(&inertia, &stiffness, shafts);
         let give = compliance(&inertia, &stiffness, shafts);
         if shafts == 1 {

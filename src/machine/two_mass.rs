@@ -133,6 +133,12 @@ impl TwoMass {
         sqrt(self.stiffness / self.reduced_inertia())
     }
 
+    /// Resonance with both ends free, damped (rad/s); 0 where nothing swings.
+    pub(crate) const fn damped_resonance(&self) -> f64 {
+        let ratio = self.damping_ratio();
+        if ratio < 1.0 { self.resonance() * sqrt((1.0 - ratio) * (1.0 + ratio)) } else { 0.0 }
+    }
+
     /// Antiresonance: resonance with the motor locked, undamped (rad/s).
     #[must_use]
     pub const fn antiresonance(&self) -> f64 {
