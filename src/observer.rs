@@ -25,7 +25,7 @@
 //! alone. *Innovation*: measured less predicted motor angle (2^-32 turn).
 
 /// What an observer around another hands on unchanged.
-macro_rules! handed_on {
+macro_rules! passed_on {
     () => {
         fn switch(&mut self, from: &Self::Config, to: &Self::Config) {
             self.observer.switch(&from.observer, &to.observer);

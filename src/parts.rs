@@ -49,7 +49,8 @@ parts! {
     [] SpeedLag, SpeedLag<N>;
     [F: Part<N>] SpeedLoop<F>, SpeedLoop<F::State, N>;
     [G: Part<N>] Supervised<G>, Supervised<G::State, N>;
-    [G: Part<N>, const SLOTS: usize, const PARTS: usize] InputShaper<G, SLOTS, PARTS>, InputShaper<G::State, SLOTS, PARTS, N>;
+    [G: Part<N>, const SLOTS: usize, const PARTS: usize] InputShaper<G, SLOTS, PARTS>,
+        InputShaper<G::State, SLOTS, PARTS, N>;
     [] TwoMassObserver, TwoMassObserver<N>;
     [] SemiImplicitObserver, SemiImplicitObserver<N>;
     [] RigidObserver, RigidObserver<N>;

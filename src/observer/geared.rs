@@ -181,7 +181,7 @@ impl<N: Stiction, O: Observer<N>> Observer<N> for GearedObserver<O> {
         Estimate { shaft_torque: behind(now.shaft_torque), load_torque: behind(now.load_torque), ..now }
     }
 
-    handed_on!();
+    passed_on!();
 }
 
 #[cfg(test)]

@@ -71,5 +71,5 @@ impl<N: Stiction, O: Observer<N>> Observer<N> for LoadGearObserver<O> {
         Estimate { load_torque: now.load_torque - friction, ..now }
     }
 
-    handed_on!();
+    passed_on!();
 }
