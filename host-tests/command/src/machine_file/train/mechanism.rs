@@ -75,33 +75,29 @@ pub(super) fn even(table: &mut Table<'_>, key: &'static str, quantity: Quantity)
     Ok(values)
 }
 
+/// The law of a mechanism, and what moves with it.
+type Law = fn(&mut Table<'_>) -> Result<(Orders, Parts), Diagnostic>;
+
 /// Mean inertia (kg m2) over a turn of a mechanism in a file of elements, by the keys of train files.
 pub(in crate::machine_file) fn mean_inertia(table: &mut Table<'_>) -> Result<f64, Diagnostic> {
-    let mut law = Vec::new();
-    let mut laws = 0;
-    if let Some(mut four) = table.table_if("four_bar")? {
-        let (bars, parts) = four_bar(&mut four)?;
-        law = inertia(&four, "crank", &parts, &Orders::sampled(|angle| bars.angles(angle)[1]))?;
-        (laws, _) = (laws + 1, four.finish()?);
-    }
-    if let Some(mut knee) = table.table_if("toggle")? {
-        let (way, parts) = toggle(&mut knee)?;
-        law = inertia(&knee, "crank", &parts, &way)?;
-        (laws, _) = (laws + 1, knee.finish()?);
-    }
-    if let Some(mut disc) = table.table_if("cam")? {
-        let (way, parts) = cam(&mut disc)?;
-        law = inertia(&disc, "lift", &parts, &way)?;
-        (laws, _) = (laws + 1, disc.finish()?);
+    let rocker: Law = |table| {
+        let (bars, parts) = four_bar(table)?;
+        Ok((Orders::sampled(|angle| bars.angles(angle)[1]), parts.to_vec()))
+    };
+    let mut laws = Vec::new();
+    for (key, blamed, law) in [("four_bar", "crank", rocker), ("toggle", "crank", toggle), ("cam", "lift", cam)] {
+        if let Some(mut of) = table.table_if(key)? {
+            let (way, parts) = law(&mut of)?;
+            laws.push(inertia(&of, blamed, &parts, &way)?);
+            of.finish()?;
+        }
     }
     if table.has("inertia_table") {
-        law = Orders::of(&even(table, "inertia_table", Quantity::SIZE)?).0;
-        laws += 1;
+        laws.push(Orders::of(&even(table, "inertia_table", Quantity::SIZE)?).0);
     }
-    if laws != 1 {
-        return Err(
-            table.wrong("kind", "exactly one of `four_bar`, `toggle`, `cam` and `inertia_table` in a mechanism")
-        );
-    }
+    let [law] = &laws[..] else {
+        let expected = "exactly one of `four_bar`, `toggle`, `cam` and `inertia_table` in a mechanism";
+        return Err(table.wrong("kind", expected));
+    };
     Ok(law.iter().filter(|harmonic| harmonic.order == 0.0).map(|harmonic| harmonic.cosine).sum())
 }
