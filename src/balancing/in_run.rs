@@ -21,82 +21,20 @@
 //! A resumed run is judged by the first vibration of all: noise and target are shares of that. What was learnt has to
 //! be confirmed again, first at rest and then by a move that is safe without it.
 
-use core::fmt;
-
+mod action;
+mod correct;
 mod estimate;
+mod learn;
 mod remembered;
 
 use super::error::Error;
 use super::influence::Influence;
-use super::matrix::{pick, put};
 use super::scalar::{Complex, Scalar, real, size, zero};
 use estimate::{DEVIATIONS, Estimate, INFORMATIVE};
 
+pub use action::{AbortReason, Action, InRunConfig};
 pub use remembered::BalancingRecord;
 
-/// How far a machine may be moved while it runs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct InRunConfig<T, const PLANES: usize> {
-    /// A weight in any plane that changes the vibration by less than `bound - 1` of it.
-    pub probe: T,
-    /// The largest weight that each plane's head can set.
-    pub limits: [T; PLANES],
-    /// The largest change of a weight in one move.
-    pub step: T,
-    /// The multiple of where it began that the vibration must not exceed, above 1.
-    pub bound: T,
-    /// The share of where it began that is good enough, below 1.
-    pub target: T,
-    /// Forgetting factor per move, 0 to 1.
-    pub forgetting: T,
-    /// Standard deviation of a reading as a share of the initial vibration, unless the reading's own variance is
-    /// larger. What the readings change by themselves is added as it is seen.
-    pub noise: T,
-}
-
-/// The next action on the weights.
-#[derive(Clone, Copy, Debug, PartialEq)]
-// Not logged: the complex numbers of `nalgebra` have no `Format`.
-pub enum Action<T: Scalar, const PLANES: usize> {
-    /// Set these weights, wait for a steady reading and give it. The same weights again ask for another reading.
-    Set([Complex<T>; PLANES]),
-    /// Within the target, or nothing left to gain: leave the weights.
-    Hold,
-    /// Abort: set these weights, the best so far, and look for the cause.
-    Abort([Complex<T>; PLANES], AbortReason),
-}
-
-/// Why in-run balancing was aborted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum AbortReason {
-    /// The vibration rose above its bound.
-    Diverging,
-    /// Eight moves brought nothing.
-    Stalled,
-    /// A reading is missing or not a number.
-    NoReading,
-    /// The weights change the readings by no more than these change by themselves.
-    Unidentified,
-}
-
-impl fmt::Display for AbortReason {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            AbortReason::Diverging => "the vibration rose above its bound",
-            AbortReason::Stalled => "eight moves brought nothing",
-            AbortReason::NoReading => "a reading is missing or not a number",
-            AbortReason::Unidentified => "the weights change the readings by no more than these change by themselves",
-        })
-    }
-}
-
-/// A move goes no farther from where it began than this times the farthest weight that was read. This and the next
-/// three are tuned on seeds 1 to 300 of `never_harmful.rs`, and judged there on 501 to 1000.
-const GROWTH: f64 = 2.5;
-/// Growth times the influence's relative standard deviation, where that allows more.
-const CERTAIN: f64 = 0.6;
 /// Further readings at rest before the first probe: one small change does not show that a machine holds still. Twice as
 /// many where it was resumed: most of those machines did not hold still before.
 const RESTED: u32 = 2;
@@ -104,14 +42,10 @@ const RESTED: u32 = 2;
 const RESTLESS: f64 = 0.08;
 /// Moves without a better vibration before it is given up.
 const PATIENCE: u32 = 8;
-/// Moves, for each plane, that may serve identification before the vibration is better.
-const PROBES: u32 = 16;
 /// Square of what the vibration wanders from reading to reading, over the square of a reading's error.
 const WALK: f64 = 0.1;
 /// Share of the bound that a probe may use.
 const ALLOWED: f64 = 0.93;
-/// Least share of a correction that is worth a move.
-const LEAST_SHARE: f64 = 0.3;
 /// Deviation from the speed of the first reading beyond which a reading is not used that is not as predicted:
 /// acceleration by unbalance goes with the fourth power of the speed, a fifth here.
 const SPEED_BAND: f64 = 0.05;
@@ -406,61 +340,6 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
         Action::Set(to)
     }
 
-    /// Takes in what has changed since the last reading, and returns the level of the weights that it began with.
-    fn learn(&mut self, reading: &[Complex<T>], level: T, start: T, noise: T) -> T {
-        let moved = core::mem::replace(&mut self.moved, [zero(); PLANES]);
-        let still = moved.iter().all(|moved| *moved == zero());
-        let predicted = self.estimate.largest_change(&moved);
-        self.estimate.predict(&moved, noise * real(WALK));
-        let innovation = self.estimate.innovation(reading, noise);
-        let surprise = innovation.largest > innovation.deviation * real(DEVIATIONS);
-        // what the readings change by themselves: all of it where nothing has moved, or what the prediction leaves
-        let beyond = if still { innovation.largest * real(0.7) } else { innovation.largest - innovation.predicted };
-        let largest = level.max(self.level);
-        // a dead sensor reads zero twice
-        let beyond = if largest > T::zero() { beyond.max(T::zero()) / largest } else { T::zero() };
-        if surprise && self.estimate.confirmed() {
-            self.failures += 1;
-            self.stalled = 0;
-            self.jumped = true;
-            let wrong = innovation.largest > predicted * real(0.5) && level > self.level * real(0.9);
-            if !still && wrong {
-                // the influence may be wrong: it has to be confirmed again, from where it began
-                let ratio = innovation.largest / innovation.deviation;
-                // or it is a jump of the unbalance: then the weights that it began with have another level
-                let least = start.min(self.estimate.level_from(reading, &self.back()));
-                self.estimate.learn(&innovation);
-                self.estimate.doubt(ratio * ratio);
-                if level > least * real(BETTER) {
-                    self.best = (start, self.rest);
-                }
-                return start;
-            }
-            // a jump of the unbalance: the influence stays
-            self.estimate.restart(reading, noise);
-            let start = self.at_rest().max(level / self.config.bound);
-            self.start = Some(start);
-            self.best = if level < start * real(BETTER) { (level, self.weights) } else { (start, self.rest) };
-            return start;
-        }
-        let share = real::<T>(if self.scatter > T::zero() { 0.35 } else { 1.0 });
-        let square = self.scatter * self.scatter * (T::one() - share) + beyond * beyond * share;
-        self.scatter = square.sqrt();
-        self.estimate.learn(&innovation);
-        if surprise {
-            self.failures += 1;
-            self.scatter = self.scatter.max(beyond * real(0.5));
-            let ratio = innovation.largest / (innovation.deviation * real(DEVIATIONS));
-            self.estimate.doubt(real::<T>(4.0) * ratio * ratio);
-        } else if !still {
-            if self.estimate.confirmed() {
-                self.failures = 0;
-            }
-            self.estimate.confirm(&moved, predicted, &innovation, self.config.forgetting);
-        }
-        start
-    }
-
     /// Level with the weights that it began with, as estimated.
     fn at_rest(&self) -> T {
         self.estimate.level_after(&self.back())
@@ -473,111 +352,6 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
             *back -= *weight;
         }
         back
-    }
-
-    /// The next move: a correction where it cannot do harm, a probe where the influence is not known well enough.
-    fn correct(&mut self, start: T, noise: T) -> Action<T, PLANES> {
-        let level = self.estimate.level();
-        let correction = self.within(self.estimate.cautious());
-        let mut probing = self.estimate.least_known();
-        if probing.is_none() {
-            let after = self.estimate.level_after(&correction);
-            // not enough to be left there
-            if self.weights == self.rest && after > start * real(WORTH) {
-                (self.stalled, self.probes, self.failures) = (0, 0, 0);
-                return Action::Hold;
-            }
-            // within the readings' error nothing is left to gain
-            if level - after < noise {
-                // weights that are not better beyond doubt are not left there: by the estimate, which a slow beat may
-                // have led astray, and as measured
-                let home = self.home();
-                let better = self.at_rest() - level > noise + noise && self.level < start * real(WORTH);
-                if better || self.weights == home {
-                    (self.stalled, self.probes, self.failures) = (0, 0, 0);
-                    return Action::Hold;
-                }
-                return self.go(home);
-            }
-            let correction = self.reachable(correction);
-            let mut share = T::one();
-            while self.estimate.expected(&correction, share) > level && share > real(LEAST_SHARE) {
-                share *= real(0.8);
-            }
-            if share > real(LEAST_SHARE) {
-                return self.move_by(&correction, share);
-            }
-            probing = (0..PLANES).max_by(|a, b| {
-                let doubt = |plane: &usize| self.estimate.doubt_of(*plane);
-                doubt(a).partial_cmp(&doubt(b)).unwrap_or(core::cmp::Ordering::Equal)
-            });
-        }
-        let Some(plane) = probing else { return self.abort(AbortReason::Unidentified) };
-        self.probes += 1;
-        if self.probes > PROBES * PLANES as u32 {
-            return self.abort(AbortReason::Unidentified);
-        }
-        // the first reading may have been a large one
-        let start = start.min(self.at_rest());
-        // learn by the largest move that is safe whichever way it goes: towards the correction where that is known
-        // roughly, else on both sides of the weights that it began with
-        let allowed = start * self.config.bound * real(ALLOWED);
-        let mut step = [zero(); PLANES];
-        let wanted = pick(&correction, plane, zero());
-        if self.estimate.doubt_of(plane) < real(0.5) && size(wanted) > T::zero() && self.level <= start {
-            let length = (allowed - level.max(self.level)).max(T::zero()) / self.estimate.most(plane);
-            put(&mut step, plane, wanted.unscale(size(wanted)).scale(length));
-        } else {
-            let length = (allowed - start).max(T::zero()) / self.estimate.most(plane);
-            let from = pick(&self.weights, plane, zero()) - pick(&self.rest, plane, zero());
-            let ahead = Complex { re: T::one(), im: T::zero() };
-            let way = if size(from) > T::zero() { -from.unscale(size(from)) } else { ahead };
-            put(&mut step, plane, way.scale(length) - from);
-        }
-        let step = self.reachable(self.within(step));
-        let mut share = T::one();
-        for _ in 0..24 {
-            if self.estimate.expected(&step, share) <= allowed {
-                break;
-            }
-            share *= real(0.8);
-        }
-        self.move_by(&step, share)
-    }
-
-    /// A step within the limits of a move and of the heads.
-    fn within(&self, mut step: [Complex<T>; PLANES]) -> [Complex<T>; PLANES] {
-        for ((step, weight), limit) in step.iter_mut().zip(&self.weights).zip(&self.config.limits) {
-            if size(*step) > self.config.step {
-                *step = step.scale(self.config.step / size(*step));
-            }
-            let to = *weight + *step;
-            if size(to) > *limit {
-                *step = to.scale(*limit / size(to)) - *weight;
-            }
-        }
-        step
-    }
-
-    /// A step no farther from where it began than what was read bears out.
-    fn reachable(&self, mut step: [Complex<T>; PLANES]) -> [Complex<T>; PLANES] {
-        for plane in 0..PLANES {
-            let (weight, rest) = (pick(&self.weights, plane, zero()), pick(&self.rest, plane, zero()));
-            let growth = real::<T>(GROWTH).max(real::<T>(CERTAIN) / self.estimate.doubt_of(plane));
-            let (most, far) = (self.reach * growth, weight + pick(&step, plane, zero()) - rest);
-            if self.reach > T::zero() && size(far) > most {
-                put(&mut step, plane, far.scale(most / size(far)) + rest - weight);
-            }
-        }
-        step
-    }
-
-    fn move_by(&mut self, step: &[Complex<T>; PLANES], share: T) -> Action<T, PLANES> {
-        let mut to = self.weights;
-        for (to, step) in to.iter_mut().zip(step) {
-            *to += step.scale(share);
-        }
-        self.go(to)
     }
 }
 
