@@ -35,11 +35,22 @@ const DRIVE: &str = "modes, design";
 const TRAIN: &str = "simulate, modes";
 
 /// Name, commands that read it, what it is, and text of each.
-const EXAMPLES: [(&str, &str, &str, &str); 16] = [
+const EXAMPLES: [(&str, &str, &str, &str); 27] = [
     ("hoist", DRIVE, "a crane's hoist of 12 t", include_str!("../../machines/hoist.toml")),
     ("roll", DRIVE, "a motor, a coupling and a roll", include_str!("../../machines/roll.toml")),
     ("axis", DRIVE, "a machine tool's feed axis", include_str!("../../machines/axis.toml")),
     ("mill", DRIVE, "the main drive of a rolling mill", include_str!("../../machines/mill.toml")),
+    ("conveyor", DRIVE, "a conveyor behind a planetary set", include_str!("../../machines/conveyor.toml")),
+    ("table", DRIVE, "a table moved by a worm and a screw", include_str!("../../machines/table.toml")),
+    ("crane", DRIVE, "a crane travels with a swinging load", include_str!("../../machines/crane.toml")),
+    ("press", DRIVE, "a crank press with belt and pump", include_str!("../../machines/press.toml")),
+    ("four-bar", DRIVE, "a press with a four-bar", include_str!("../../machines/four-bar.toml")),
+    (
+        "generating-set",
+        DRIVE,
+        "a diesel set with every kind of damper",
+        include_str!("../../machines/generating-set.toml"),
+    ),
     ("ship", "modes", "a twin-screw ship with branches", include_str!("../../machines/ship.toml")),
     ("gear-pair", TRAIN, "a spur pair at its resonance", include_str!("../../trains/gear-pair.toml")),
     ("spur-pair", TRAIN, "a spur pair on shafts and bearings", include_str!("../../trains/spur-pair.toml")),
@@ -49,6 +60,11 @@ const EXAMPLES: [(&str, &str, &str, &str); 16] = [
     ("girder", TRAIN, "the same on an elastic girder", include_str!("../../trains/girder.toml")),
     ("travel", TRAIN, "a crane's travelling drive reverses", include_str!("../../trains/travel.toml")),
     ("tilting", TRAIN, "two motors on one ring gear", include_str!("../../trains/tilting.toml")),
+    ("crank-press", TRAIN, "a press with friction in its pins", include_str!("../../trains/crank-press.toml")),
+    ("four-bar-press", TRAIN, "a four-bar press in its steady cycle", include_str!("../../trains/four-bar-press.toml")),
+    ("toggle-press", TRAIN, "a toggle press and a cam on one shaft", include_str!("../../trains/toggle-press.toml")),
+    ("prime-movers", TRAIN, "an engine, a tram, a winch", include_str!("../../trains/prime-movers.toml")),
+    ("torques", TRAIN, "every other torque and mesh", include_str!("../../trains/torques.toml")),
     ("three-discs", "rotor", "three discs on a flexible shaft", include_str!("../../rotors/three_discs.toml")),
     ("fan-balance", "balancing", "readings of a fan in two planes", include_str!("../../rotors/fan-balance.toml")),
     (
@@ -72,7 +88,7 @@ impl Example {
                 }));
             }
             for (name, commands, about, _) in EXAMPLES {
-                say(format_args!("{name:<12} {commands:<17} {about}"));
+                say(format_args!("{name:<15} {commands:<17} {about}"));
             }
             return Ok(());
         };

@@ -82,7 +82,7 @@ fn an_installed_command_works_in_any_folder() {
     };
     let names = out(&run(&["example"]));
     for line in names.lines() {
-        let (name, commands) = (line[..12].trim(), line[13..29].trim());
+        let (name, commands) = (line[..15].trim(), line[16..33].trim());
         // a recording of another rate and sensor needs them said: below
         if name == "bench-log" {
             continue;

@@ -4,11 +4,12 @@
 //! range.
 
 use std::collections::BTreeSet;
+use std::fs;
 
 use cargo_driveline::machine_file::{Diagnostic, balance, parse, parse_rotor, parse_train};
 use toml::{Table, Value};
 
-use super::pages::{Page, Section, all};
+use super::pages::{Page, Section, all, root};
 
 /// A reader: what a text comes to, as text, or its fault.
 type Reader = fn(&str) -> Result<String, Diagnostic>;
@@ -50,8 +51,8 @@ fn every_key_has_its_unit_range_and_default() {
     let mut wrong = Vec::new();
     for (word, path, read) in READERS {
         let page = Page::read(path);
-        let listings: Vec<Table> =
-            page.fences.iter().filter(|(info, _)| info == word).map(|(_, text)| text.parse().unwrap()).collect();
+        let shown = page.fences.iter().filter(|(info, _)| info == word).map(|(_, text)| text.clone());
+        let listings: Vec<Table> = shown.chain(examples(word)).map(|text| text.parse().unwrap()).collect();
         for section in page.sections.iter().filter(|section| !section.rows.is_empty()) {
             if let Some(at) = Place::of(section) {
                 let said = check(section, &at, &listings, read);
@@ -60,6 +61,17 @@ fn every_key_has_its_unit_range_and_default() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// The complete machines and trains that the tool carries.
+fn examples(word: &str) -> Vec<String> {
+    let folder = match word {
+        "toml,machine" => "machines",
+        "toml,train" => "trains",
+        _ => return Vec::new(),
+    };
+    let files = fs::read_dir(root().join("host-tests/command").join(folder)).unwrap();
+    files.map(|file| fs::read_to_string(file.unwrap().path()).unwrap()).collect()
 }
 
 /// Where the keys of a section stand: the table's name in parts, and the kinds that have them.
