@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-/// What the text of a source prints, by `doc/theory.md`, what it has a mere heading for, and words of what it does not
+/// What the text of a source prints, by `doc/makers/theory.md`, what it has a mere heading for, and words of what it does not
 /// print, each beside a part that it was taken for.
 struct Source {
     tag: &'static str,
