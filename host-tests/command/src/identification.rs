@@ -4,6 +4,7 @@
 //! part of it the lines that carry the torque. [`driveline::commissioning::fit`] gives a first guess, and
 //! [`estimate`] the likeliest machine with its deviations; whatever a record cannot determine is refused.
 
+mod cause;
 mod estimate;
 mod identify;
 mod model;
@@ -12,9 +13,10 @@ mod refusal;
 mod spectrum;
 mod text;
 
+pub use cause::Rigid;
 pub use estimate::{Estimate, Figures, Setting, estimate};
 pub use identify::{Identified, NotIdentified, identify, identify_response};
-pub use model::{Model, Motion, Torque};
+pub use model::{Model, Motion, Third, Torque};
 pub use page::page;
 pub use refusal::Refusal;
 pub use spectrum::{Line, carriers, guess, lines, smoothed, tabulated};

@@ -10,11 +10,13 @@
 use driveline::commissioning::Figure;
 use nalgebra::{Complex, DMatrix, DVector};
 
-use super::model::{Model, Motion, TRANSIENTS, Torque};
+use super::model::{Model, Motion, Third, Torque};
 use super::spectrum::Line;
 
-/// Parameters of the machine: three logarithms, damping, two frictions, delay.
-const MACHINE: usize = 7;
+/// Parameters of two masses: three logarithms, damping, two frictions, delay.
+const TWO: usize = 7;
+/// Those of a third: two logarithms, damping.
+const THIRD: usize = 3;
 /// Parts of the variance.
 const PARTS: usize = 3;
 /// Power of a line's torque over that of its noise, below which the line is left out.
@@ -23,6 +25,10 @@ const CLEAR: f64 = 30.0;
 const SURE: f64 = 1e-4;
 /// Most lines that are used.
 const MOST: usize = 3000;
+/// Most lines that two masses and three are compared by.
+const FEW: usize = 150;
+/// Rounds of parameters and variances in turn, at most.
+const ROUNDS: usize = 12;
 
 /// How the lines were made.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +50,8 @@ pub struct Estimate {
     pub figures: Figures,
     /// Rms torque that the model leaves unexplained, over that of the lines.
     pub unexplained: f64,
+    /// Share of the response that neither noise of the motion nor of the torque explains.
+    pub misfit: f64,
     /// Condition of the information about resonance, antiresonance and inertia, each in its own size.
     pub condition: f64,
     /// Minus twice the logarithm of the likelihood.
@@ -96,7 +104,17 @@ impl Parameters {
             damping: damping * x[3],
             friction: [friction * x[4], friction * x[5]],
             delay: delay * x[6],
+            third: self.start.third.map(|third| Third {
+                inertia: third.inertia * x[TWO].exp(),
+                stiffness: third.stiffness * x[TWO + 1].exp(),
+                damping: damping * x[TWO + 2],
+            }),
         }
+    }
+
+    /// The parameters of the machine; those of a transient follow.
+    fn count(&self) -> usize {
+        if self.start.third.is_some() { TWO + THIRD } else { TWO }
     }
 
     /// A damping ratio of 1 %, as much friction, and a hundredth of the swing's period.
@@ -106,8 +124,11 @@ impl Parameters {
     }
 
     fn begin(&self) -> DVector<f64> {
-        let mut x = DVector::zeros(MACHINE + TRANSIENTS);
+        let mut x = DVector::zeros(self.count() + self.start.transients());
         x[3] = self.start.damping / self.units()[0];
+        if let Some(third) = self.start.third {
+            x[TWO + 2] = third.damping / self.units()[0];
+        }
         x
     }
 }
@@ -134,7 +155,10 @@ impl Problem<'_> {
             let mut error = line.motion - response * line.torque;
             if self.transient {
                 let parts = model.transient(line.frequency).into_iter();
-                error -= parts.zip(x.iter().skip(MACHINE)).map(|(part, size)| part * *size).sum::<Complex<f64>>();
+                error -= parts
+                    .zip(x.iter().skip(self.parameters.count()))
+                    .map(|(part, size)| part * *size)
+                    .sum::<Complex<f64>>();
             }
             [error, response]
         };
@@ -149,9 +173,10 @@ impl Problem<'_> {
     }
 
     fn jacobian(&self, x: &DVector<f64>, deviations: &[f64]) -> DMatrix<f64> {
-        let count = if self.transient { MACHINE + TRANSIENTS } else { MACHINE };
+        let machine = self.parameters.count();
+        let count = if self.transient { x.len() } else { machine };
         let mut jacobian = DMatrix::zeros(2 * self.lines.len(), count);
-        for column in 0..MACHINE {
+        for column in 0..machine {
             let step = 1e-5;
             let moved = |by: f64| {
                 let mut x = x.clone();
@@ -163,7 +188,7 @@ impl Problem<'_> {
         if self.transient {
             let model = self.parameters.model(x);
             for ((line, by), row) in self.lines.iter().zip(deviations).zip(0..) {
-                for (part, column) in model.transient(line.frequency).iter().zip(MACHINE..) {
+                for (part, column) in model.transient(line.frequency).iter().zip(machine..) {
                     jacobian[(2 * row, column)] = -part.re / by;
                     jacobian[(2 * row + 1, column)] = -part.im / by;
                 }
@@ -256,23 +281,39 @@ impl Problem<'_> {
 pub fn estimate(lines: &[Line], start: Model, settings: &[Setting]) -> Option<(Estimate, Setting)> {
     let (setting, others) = settings.split_first()?;
     let mut thinned: Vec<Line> = lines.iter().step_by(lines.len().div_ceil(MOST).max(1)).copied().collect();
-    let (mut found, mut noise) = once(&thinned, start, *setting)?;
+    let (mut found, mut noise) = once(&thinned, start, *setting, ROUNDS)?;
     for _ in 0..3 {
         let clear: Vec<Line> = thinned.iter().filter(|line| line.torque.norm_sqr() > CLEAR * noise).copied().collect();
         // likelihoods compare over the same lines alone: too few of them are not taken at all
-        if clear.len() == thinned.len() || clear.len() < 2 * (MACHINE + TRANSIENTS) {
+        if clear.len() == thinned.len() || clear.len() < 2 * (TWO + start.transients()) {
             break;
         }
         thinned = clear;
-        (found, noise) = once(&thinned, start, *setting)?;
+        (found, noise) = once(&thinned, start, *setting, ROUNDS)?;
     }
-    let other = |setting: &Setting| once(&thinned, start, *setting).map(|(estimate, _)| (estimate, *setting));
+    let other = |setting: &Setting| once(&thinned, start, *setting, ROUNDS).map(|(estimate, _)| (estimate, *setting));
     let all = [(found, *setting)].into_iter().chain(others.iter().filter_map(other));
     all.min_by(|(one, _), (other, _)| one.unlikely.total_cmp(&other.unlikely))
 }
 
-/// An estimate, and the variance of the torque's noise.
-fn once(thinned: &[Line], start: Model, setting: Setting) -> Option<(Estimate, f64)> {
+/// Two masses and three behind a part of the lines, the three from several places of the third: the likeliest.
+#[must_use]
+pub fn three(lines: &[Line], two: &Estimate, setting: Setting) -> Option<[Estimate; 2]> {
+    let thinned: Vec<Line> = lines.iter().step_by(lines.len().div_ceil(FEW).max(1)).copied().collect();
+    let Model { load, stiffness, damping, .. } = two.model;
+    let starts = [0.3, 0.7].into_iter().flat_map(|share| [0.3, 1.0, 3.0].map(|ratio| (share, ratio)));
+    let tried = starts.filter_map(|(share, ratio)| {
+        let third = Third { inertia: share * load, stiffness: ratio * stiffness, damping };
+        let start = Model { load: load - third.inertia, third: Some(third), ..two.model };
+        Some(once(&thinned, start, setting, 1)?.0)
+    });
+    let nearest = tried.min_by(|one, other| one.unlikely.total_cmp(&other.unlikely))?;
+    let refined = |model| Some(once(&thinned, model, setting, ROUNDS)?.0);
+    Some([refined(two.model)?, refined(nearest.model)?])
+}
+
+/// An estimate by so many rounds, and the variance of the torque's noise.
+fn once(thinned: &[Line], start: Model, setting: Setting, rounds: usize) -> Option<(Estimate, f64)> {
     let transient = setting.torque != Torque::Sine;
     let problem = Problem { lines: thinned, setting, parameters: Parameters { start }, transient };
     let mut x = problem.parameters.begin();
@@ -288,12 +329,12 @@ fn once(thinned: &[Line], start: Model, setting: Setting) -> Option<(Estimate, f
     let mut deviations: Vec<f64> =
         sizes.map(|([_, response], line)| 0.1 * (response * line.torque).norm() + 0.1 * line.motion.norm()).collect();
     let mut variances = Vec::new();
-    for _ in 0..12 {
+    for _ in 0..rounds {
         let before = x.clone();
         x = problem.descend(x, &deviations);
         variances = problem.variances(&problem.errors(&x), &mut parts);
         deviations = variances.iter().map(|variance| variance.sqrt()).collect();
-        if (&x - &before).rows(0, MACHINE).amax() < 1e-6 {
+        if (&x - &before).rows(0, problem.parameters.count()).amax() < 1e-6 {
             break;
         }
     }
@@ -313,6 +354,7 @@ fn once(thinned: &[Line], start: Model, setting: Setting) -> Option<(Estimate, f
         model,
         figures: figures(&problem.parameters, &x, &covariance),
         unexplained: (missed / torque).sqrt(),
+        misfit: parts[2].sqrt(),
         condition: condition(&jacobian),
         unlikely,
         lines: thinned.len(),
@@ -368,7 +410,7 @@ fn condition(jacobian: &DMatrix<f64>) -> f64 {
 fn figures(parameters: &Parameters, x: &DVector<f64>, covariance: &DMatrix<f64>) -> Figures {
     let figure = |of: &dyn Fn(&Model) -> f64| {
         let slope = DVector::from_fn(covariance.nrows(), |k, _| {
-            if k >= MACHINE {
+            if k >= parameters.count() {
                 return 0.0;
             }
             let moved = |by: f64| {
@@ -416,11 +458,11 @@ mod tests {
             Line { frequency, torque, motion, noise: 1.0 }
         };
         let lines: Vec<Line> = (0..30).map(line).collect();
-        let (all, noise) = once(&lines, start, setting).unwrap();
+        let (all, noise) = once(&lines, start, setting, ROUNDS).unwrap();
         let clear: Vec<Line> = lines.iter().filter(|line| line.torque.norm_sqr() > CLEAR * noise).copied().collect();
         assert_eq!(clear.len(), 20);
         // a sum over fewer lines is smaller here, whatever the setting
-        assert!(once(&clear, start, setting).unwrap().0.unlikely < all.unlikely);
+        assert!(once(&clear, start, setting, ROUNDS).unwrap().0.unlikely < all.unlikely);
         let (found, _) = estimate(&lines, start, &[setting, setting]).unwrap();
         assert_eq!(found.lines, 30);
     }

@@ -1,5 +1,6 @@
 //! From a recording or a table to a machine.
 
+use super::cause::{instead, third};
 use super::estimate::{Estimate, Setting, estimate};
 use super::model::{Motion, Torque};
 use super::refusal::{self, LEAST, Refusal};
@@ -58,7 +59,8 @@ pub fn identify(recording: &Recording, torque_constant: Option<f64>) -> Result<I
     if responses.len() < BANDS {
         return Err(Refusal::NotExcited(carrying.len().min(responses.len())).into());
     }
-    let (start, fit) = guess(&responses).ok_or(Refusal::Unrelated)?;
+    let refused = |refusal, two| instead(refusal, &carrying, motion, two);
+    let (start, fit) = guess(&responses).ok_or_else(|| refused(Refusal::Unrelated, None))?;
     // below that friction alone acts, above it higher modes
     let between = [lowest.max(start.antiresonance() / 30.0), 5.0 * start.resonance()];
     let lines = carriers(&all, between);
@@ -66,15 +68,23 @@ pub fn identify(recording: &Recording, torque_constant: Option<f64>) -> Result<I
         return Err(Refusal::NotExcited(lines.len()).into());
     }
     let settings = [Torque::Smooth, Torque::Held].map(|torque| Setting { motion, torque, period: recording.period });
-    let (estimate, setting) = estimate(&lines, start, &settings).ok_or(Refusal::Unrelated)?;
-    judged(&estimate, fit.improvement)?;
-    Ok(Identified { estimate, setting, lines })
+    let (estimate, setting) = estimate(&lines, start, &settings).ok_or_else(|| refused(Refusal::Unrelated, None))?;
+    judged(Identified { estimate, setting, lines }, &carrying, fit.improvement)
 }
 
-/// An estimate that is of use; where it is not, and the first guess shows no resonance, that is the reason.
-fn judged(estimate: &Estimate, improvement: f64) -> Result<(), Refusal> {
-    refusal::figures(estimate)
-        .map_err(|refusal| if improvement < LEAST { Refusal::Rigid(improvement) } else { refusal })
+/// What was identified, if it is of use and two masses explain it. Where it is not, and the first guess shows no
+/// resonance, that is the reason; `carriers` are all lines.
+fn judged(found: Identified, carriers: &[Line], improvement: f64) -> Result<Identified, NotIdentified> {
+    let Identified { estimate, setting, lines } = &found;
+    let two = Some((estimate, lines.as_slice(), *setting));
+    let refusal = match refusal::figures(estimate) {
+        Ok(()) => third(two),
+        Err(_) if improvement < LEAST => {
+            Some(instead(Refusal::Rigid { ratio: improvement, rigid: None }, carriers, setting.motion, two))
+        }
+        Err(refusal) => Some(instead(refusal, carriers, setting.motion, two)),
+    };
+    refusal.map_or(Ok(found), |refusal| Err(refusal.into()))
 }
 
 /// The machine of a table of a frequency response.
@@ -90,8 +100,8 @@ pub fn identify_response(
     let (start, fit) = guess(&tabulated(&lines, motion)).ok_or(Refusal::Unrelated)?;
     let setting = Setting { motion, torque: Torque::Sine, period: 1.0 };
     let (estimate, setting) = estimate(&lines, start, &[setting]).ok_or(Refusal::Unrelated)?;
-    judged(&estimate, fit.improvement)?;
-    Ok(Identified { estimate, setting, lines })
+    let all = lines.clone();
+    judged(Identified { estimate, setting, lines }, &all, fit.improvement)
 }
 
 /// The rows of a table as lines of unit torque, in the order of their frequencies.

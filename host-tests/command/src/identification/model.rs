@@ -17,6 +17,19 @@ pub struct Model {
     pub friction: [f64; 2],
     /// Time by which the torque acts after its sample (s).
     pub delay: f64,
+    /// A third mass behind the load.
+    pub third: Option<Third>,
+}
+
+/// A mass on a shaft behind the load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Third {
+    /// Inertia (kg m2).
+    pub inertia: f64,
+    /// Stiffness of its shaft (N m/rad).
+    pub stiffness: f64,
+    /// Damping of its shaft (N m s/rad).
+    pub damping: f64,
 }
 
 /// The motion that was measured.
@@ -85,11 +98,21 @@ impl Model {
         0.5 * self.swing_damping() / (self.reduced() * self.resonance())
     }
 
-    /// The motor's speed per torque (rad/s per N m) at `s`.
-    fn speed(&self, s: Complex<f64>) -> Complex<f64> {
-        let shaft = s.inv() * self.stiffness + self.damping;
+    /// The motor's speed per torque (rad/s per N m) at `s`, as numerator and denominator.
+    fn speed(&self, s: Complex<f64>) -> [Complex<f64>; 2] {
         let load = s * self.load + self.friction[1];
-        (s * self.motor + self.friction[0] + shaft * load / (shaft + load)).inv()
+        // the torque on the load per its speed
+        let [over, under] = match self.third {
+            None => [load, Complex::new(1.0, 0.0)],
+            Some(Third { inertia, stiffness, damping }) => {
+                let shaft = s * damping + stiffness;
+                let free = shaft + s * s * inertia;
+                [load * free + shaft * s * inertia, free]
+            }
+        };
+        let shaft = s * self.damping + self.stiffness;
+        let twisted = shaft * under + s * over;
+        [twisted, (s * self.motor + self.friction[0]) * twisted + shaft * over]
     }
 
     /// The motion per sample of the torque at a frequency (rad/s); samples are `period` (s) apart.
@@ -107,7 +130,8 @@ impl Model {
                 (Motion::Acceleration, _) => s,
             };
             let hold = if torque == Torque::Held { held() } else { one };
-            self.speed(s) * motion * hold * (-s * self.delay).exp()
+            let [over, under] = self.speed(s);
+            over / under * motion * hold * (-s * self.delay).exp()
         };
         match torque {
             Torque::Held => {
@@ -134,19 +158,30 @@ impl Model {
     /// What is left of the state before and after a recording: `s^j` over the characteristic polynomial, of size one
     /// about the resonance.
     #[must_use]
-    pub fn transient(&self, frequency: f64) -> [Complex<f64>; TRANSIENTS] {
-        let Self { motor, load, stiffness, damping, friction: [before, behind], .. } = *self;
+    pub fn transient(&self, frequency: f64) -> Vec<Complex<f64>> {
         let (s, unit) = (Complex::new(0.0, frequency), self.resonance());
-        let shaft = s * damping + stiffness;
-        let free = (s * motor + before) * (s * s * load + s * behind + shaft) + shaft * (s * load + behind);
-        let mut power = free.inv() * (motor * load * unit * unit * unit);
-        [(); TRANSIENTS].map(|()| {
-            let this = power;
-            power *= s / unit;
-            this
-        })
+        let mass = self.third.map_or(1.0, |third| third.inertia * unit * unit);
+        let first = self.speed(s)[1].inv() * (self.motor * self.load * mass * unit * unit * unit);
+        let power = |power: &Complex<f64>| Some(power * s / unit);
+        std::iter::successors(Some(first), power).take(self.transients()).collect()
+    }
+
+    /// Coefficients of a transient: the states, and two for the sampling.
+    #[must_use]
+    pub const fn transients(&self) -> usize {
+        if self.third.is_some() { 7 } else { 5 }
+    }
+
+    /// Resonances of three masses without damping (rad/s), the lower one first: the roots of
+    /// `w^4 - (a + b) w^2 + c`, with a and b the squares of both shafts' own.
+    #[must_use]
+    pub fn resonances(&self) -> Option<[f64; 2]> {
+        let third = self.third?;
+        let sum = self.stiffness * (1.0 / self.motor + 1.0 / self.load)
+            + third.stiffness * (1.0 / self.load + 1.0 / third.inertia);
+        let all = self.motor + self.load + third.inertia;
+        let product = self.stiffness * third.stiffness * all / (self.motor * self.load * third.inertia);
+        let half = (0.25 * sum * sum - product).max(0.0).sqrt();
+        Some([-half, half].map(|half| (0.5 * sum + half).sqrt()))
     }
 }
-
-/// Coefficients of a transient: three states, and two for the sampling.
-pub const TRANSIENTS: usize = 5;

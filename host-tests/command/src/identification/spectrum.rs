@@ -170,6 +170,7 @@ pub fn guess(responses: &[Response]) -> Option<(Model, Fit)> {
         damping: derived.damping,
         friction: [0.0; 2],
         delay: 0.0,
+        third: None,
     };
     (model.motor > 0.0 && model.load > 0.0).then_some((model, fitted))
 }

@@ -1,0 +1,119 @@
+//! Why two masses do not explain a record: what explains it instead.
+
+use nalgebra::{Complex, Matrix2, Vector2};
+
+use super::estimate::{Estimate, Setting, three};
+use super::model::Motion;
+use super::refusal::{LEAST, MOST, Refusal};
+use super::spectrum::Line;
+
+/// Torque in phase with the acceleration, of their sizes, below which the torque has the other sign. It is one of a free
+/// inertia; friction, a swing or a dead time make it smaller.
+const AGAINST: f64 = -0.1;
+/// Share of the motion that a rigid machine may leave unexplained.
+const RIGID: f64 = 0.4;
+/// Share of what two masses leave unexplained that three may leave, to be the machine.
+const LESS: f64 = 0.6;
+/// Power of a line's torque, of the strongest's, below which it says nothing here.
+const FAINT: f64 = 1e-4;
+
+/// An estimate of two masses, its lines and its setting.
+pub type Two<'l> = (&'l Estimate, &'l [Line], Setting);
+
+/// A machine without a shaft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rigid {
+    /// Inertia (kg m2).
+    pub inertia: f64,
+    /// Viscous friction (N m s/rad).
+    pub friction: f64,
+}
+
+/// What the record shows instead of two masses, where that can be told; else why two masses are refused.
+#[must_use]
+pub fn instead(refusal: Refusal, carriers: &[Line], motion: Motion, two: Option<Two>) -> Refusal {
+    let strongest = carriers.iter().map(|line| line.torque.norm_sqr()).fold(0.0, f64::max);
+    let clear = carriers.iter().filter(|line| line.torque.norm_sqr() > FAINT * strongest);
+    let pairs: Vec<Pair> = clear.map(|line| Pair::of(line, motion)).collect();
+    if in_phase(&pairs) < AGAINST {
+        return Refusal::Sign;
+    }
+    match &refusal {
+        Refusal::Rigid { ratio, .. } => match rigid(&pairs) {
+            Some((rigid, missed)) if missed < RIGID => return Refusal::Rigid { ratio: *ratio, rigid: Some(rigid) },
+            _ => {}
+        },
+        Refusal::Unexplained(_)
+        | Refusal::Growing(_)
+        | Refusal::Overdamped(_)
+        | Refusal::Impossible(_)
+        | Refusal::Driving(..) => {}
+        Refusal::Unrelated if in_phase(&pairs) > 0.0 => {}
+        _ => return refusal,
+    }
+    third(two).unwrap_or(Refusal::Contact)
+}
+
+/// A third mass that swings in the band, where three masses leave much less unexplained than two.
+#[must_use]
+pub fn third(two: Option<Two>) -> Option<Refusal> {
+    let (two, lines, setting) = two?;
+    let [two, three] = three(lines, two, setting)?;
+    let resonances = three.model.resonances()?;
+    let within = resonances.iter().all(|resonance| (two.band[0]..=two.band[1]).contains(resonance));
+    let likelier = two.unlikely - three.unlikely > LEAST * 3.0 && three.unexplained < LESS * two.unexplained;
+    let is_machine = three.model.third.is_some_and(|third| third.damping > 0.0) && 100.0 * three.unexplained < MOST;
+    (within && likelier && is_machine).then(|| Refusal::Third(Box::new(three.model)))
+}
+
+/// Torque and speed of a line, at its frequency.
+struct Pair {
+    s: Complex<f64>,
+    torque: Complex<f64>,
+    speed: Complex<f64>,
+}
+
+impl Pair {
+    fn of(line: &Line, motion: Motion) -> Self {
+        let s = Complex::new(0.0, line.frequency);
+        let speed = if motion == Motion::Acceleration { line.motion / s } else { line.motion };
+        Self { s, torque: line.torque, speed }
+    }
+}
+
+fn in_phase(pairs: &[Pair]) -> f64 {
+    let sums = pairs.iter().map(|Pair { s, torque, speed }| {
+        let product = torque.conj() * s * speed;
+        [product.re, product.norm()]
+    });
+    let [with, all] = sums.fold([0.0; 2], |[with, all], [re, size]| [with + re, all + size]);
+    with / all
+}
+
+/// The rigid machine that comes nearest to the speeds, and the share of them that it leaves.
+fn rigid(pairs: &[Pair]) -> Option<(Rigid, f64)> {
+    let mut found = Vector2::new(1.0, 0.0);
+    let response = |found: &Vector2<f64>, s: &Complex<f64>| (s * found[0] + found[1]).inv();
+    // errors of the torque, each weighted by the response to it; the speed that the torque would give is the instrument,
+    // which has no noise of the measured one
+    for _ in 0..8 {
+        let (mut information, mut slope) = (Matrix2::zeros(), Vector2::zeros());
+        for Pair { s, torque, speed } in pairs {
+            let response = response(&found, s);
+            let weight = response.norm_sqr();
+            let given = response * torque * weight;
+            for (row, instrument) in [s * given, given].iter().enumerate() {
+                for (column, other) in [s * speed, *speed].iter().enumerate() {
+                    information[(row, column)] += (instrument.conj() * other).re;
+                }
+                slope[row] += (instrument.conj() * torque).re;
+            }
+        }
+        found = information.lu().solve(&slope)?;
+    }
+    let left: f64 =
+        pairs.iter().map(|Pair { s, torque, speed }| (speed - torque * response(&found, s)).norm_sqr()).sum();
+    let all: f64 = pairs.iter().map(|pair| pair.speed.norm_sqr()).sum();
+    let rigid = Rigid { inertia: found[0], friction: found[1] };
+    (rigid.inertia > 0.0).then(|| (rigid, (left / all).sqrt()))
+}
