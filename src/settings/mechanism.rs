@@ -13,6 +13,8 @@ const LIGHT: &str = "the mechanism's inertia swings too far for its number: the 
     mean in fixed point";
 const DRAG: &str = "the mechanism's inertia torque is too large for its number: in fixed point, at the base of the \
     speed, it must with that of the weight be below 0.9 of the base of the torque";
+const SHARP: &str = "the mechanism's inertia torque has a peak that the observer's table of 64 places does not resolve: \
+    off by more than a twentieth of the largest; move the bars away from their change point, lengthen the rod";
 const WEIGHT: &str = "the mechanism has a weight that this observer leaves out: take ToolObserver";
 
 /// Places of the machine's own table to one of the observer's.
@@ -25,6 +27,23 @@ impl MechanismDesign {
         let here = self.machine.point(k * STRIDE);
         let leverage = if most > 0.0 { here.leverage / most } else { 0.0 };
         [mean / here.inertia, 0.5 * here.derivative * speed * speed / torque, leverage]
+    }
+
+    /// Largest deviation of the inertia torque from the straight lines between the observer's places, of the largest
+    /// inertia torque; infinite where one is no number.
+    const fn between_places(&self) -> f64 {
+        let (mut most, mut off) = (0.0_f64, 0.0_f64);
+        each!(j, 0..MECHANISM_POINTS, {
+            let (place, part) = (j - j % STRIDE, (j % STRIDE) as f64 / STRIDE as f64);
+            let (from, to) = (self.machine.point(place).derivative, self.machine.point(place + STRIDE).derivative);
+            let here = self.machine.point(j).derivative;
+            let away = (here - from - part * (to - from)).abs();
+            if !away.is_finite() {
+                return f64::INFINITY;
+            }
+            (most, off) = (most.max(here.abs()), off.max(away));
+        });
+        if most > 0.0 { off / most } else { 0.0 }
     }
 
     const fn turning(&self) -> Result<RotorAngleConfig, Error> {
@@ -41,11 +60,14 @@ impl MechanismDesign {
 }
 
 constants! {
-    /// [`Error::Coefficient`] or [`Error::Value`] for a value beyond its number, a gear ratio out of range, or a weight
-    /// that the observer has no tool for.
+    /// [`Error::Coefficient`] or [`Error::Value`] for a value beyond its number, a gear ratio out of range, a weight
+    /// that the observer has no tool for, or an inertia that changes within less than the table's places.
     impl[const TOOLS: usize] MechanismConfig[, TOOLS], new, try_new(design: &MechanismDesign), |format| {
         if TOOLS > 1 || (TOOLS == 0 && design.machine.mechanism.weight != 0.0) {
             return Err(Error::Value(WEIGHT));
+        }
+        if design.between_places() > 0.05 {
+            return Err(Error::Value(SHARP));
         }
         let rigid = get!(RigidConfig::<Number>::try_new(&design.rigid, design.load_share(), format.bases));
         let mean = design.machine.mean_inertia();
