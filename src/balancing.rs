@@ -104,7 +104,7 @@ pub use reading::{Phasor, PhasorsConfig, Reading, ReadingFault, Steadiness};
 #[cfg(all(feature = "balancing", feature = "parameters"))]
 pub use record::Record;
 #[cfg(feature = "balancing")]
-pub use rigid::{RigidUnbalance, UnbalanceParts, one_plane_suffices};
+pub use rigid::{RigidUnbalance, one_plane_suffices};
 #[cfg(feature = "balancing")]
 pub use scalar::{Complex, Scalar};
 pub use sensor::{Motion, Sensor, SensorError};

@@ -6,7 +6,6 @@
 
 use super::error::Error;
 use super::scalar::{Complex, Scalar, given, real, zero};
-use super::tolerance::two_planes;
 
 /// Width over diameter up to which a rotor is balanced statically, in one plane [Notes ch. 5].
 const DISC: f64 = 0.2;
@@ -19,16 +18,6 @@ pub struct RigidUnbalance<T: Scalar> {
     pub resultant: Complex<T>,
     /// Couple unbalance (kg m2): the sum of each times its distance from the centre of mass.
     pub couple: Complex<T>,
-}
-
-/// The two parts of a dynamic unbalance in two planes (kg m), which add to it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-// Not logged: the complex numbers of `nalgebra` have no `Format`.
-pub struct UnbalanceParts<T: Scalar> {
-    /// The static part, without a couple about the centre of mass.
-    pub resultant: [Complex<T>; 2],
-    /// The couple part: equal and opposite.
-    pub couple: [Complex<T>; 2],
 }
 
 impl<T: Scalar> RigidUnbalance<T> {
@@ -50,16 +39,6 @@ impl<T: Scalar> RigidUnbalance<T> {
             sum.couple += unbalance.scale(at);
         }
         Ok(sum)
-    }
-
-    /// Its parts in the planes at `a` and `b` (m from the centre of mass). The correction is the opposite.
-    ///
-    /// # Errors
-    /// [`Error::Setting`] where the planes are the same.
-    pub fn in_planes(&self, a: T, b: T) -> Result<UnbalanceParts<T>, Error> {
-        let resultant = two_planes([(self.resultant, T::zero())], a, b)?;
-        let couple = self.couple.unscale(b - a);
-        Ok(UnbalanceParts { resultant, couple: [-couple, couple] })
     }
 }
 

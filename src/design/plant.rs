@@ -2,7 +2,7 @@
 
 use super::ExactStep;
 use super::polynomial::Polynomial;
-use crate::machine::{Chain, Modes, TwoMass};
+use crate::machine::{Modes, TwoMass};
 
 const MODES: usize = crate::machine::CAPACITY - 1;
 
@@ -46,12 +46,6 @@ impl Plant {
         };
         plant.count = 1;
         plant
-    }
-
-    /// A chain with all its vibrations.
-    #[must_use]
-    pub const fn of_chain(chain: &Chain) -> Self {
-        Self::of_modes(chain.total_inertia(), &chain.modes())
     }
 
     /// A machine of this inertia (kg m2) with vibrations, as of a train. A vibration with a node at the motor is left

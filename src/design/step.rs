@@ -49,14 +49,6 @@ impl ExactStep {
         let (g1, g2, lag) = (g1 * period * period, g2 * period, lag * period);
         Self { n11: -w2 * g1, n12: g2, g1, n21: -w2 * g2, n22: -(w2 * g1 + two_a * g2), g2, lag }
     }
-
-    /// Impulse (N m s) from motor to load by the shaft in a tick, from twist, twist rate and forcing:
-    /// `h = h.0 delta + h.1 v + h.2 s`. Then `J_m w_m += T tau_m - h` and `J_l w_l += h - T tau_L`.
-    #[must_use]
-    pub const fn impulse(&self, machine: &TwoMass) -> (f64, f64, f64) {
-        let reduced = machine.reduced_inertia();
-        (-reduced * self.n21, -reduced * self.n22, reduced * self.lag)
-    }
 }
 
 /// `(g1, g2, 1 - g2)` of `y'' + 2 x y' + p y = 1` from rest after the time 1, with y = g1 and y' = g2.

@@ -59,9 +59,8 @@ impl Shaft {
 /// ([`losses`](Self::losses)), not on a branch on its mass.
 ///
 /// The chain is referred without losses, as the observer requires: energy is conserved, and friction, constant or slow,
-/// becomes part of the estimated load torque. Only [`gravity_torque_hoisting`](Self::gravity_torque_hoisting) and
-/// [`gravity_torque_lowering`](Self::gravity_torque_lowering) use the efficiency, unless the chain begins with
-/// [`starting`](Self::starting) or [`braking`](Self::braking).
+/// becomes part of the estimated load torque, unless the chain begins with [`starting`](Self::starting) or
+/// [`braking`](Self::braking).
 ///
 /// ```
 /// use driveline::machine::{Chain, Damping, Inertia, Stiffness};
@@ -90,8 +89,8 @@ pub struct Chain {
     waiting: [f64; 2],
     /// Those of gears that the last shaft ends in.
     ending: [f64; 2],
-    /// Weight torque without losses, hoisting and lowering (N m).
-    pub(super) gravity: [f64; 3],
+    /// Weight torque without losses (N m).
+    pub(super) gravity: f64,
     /// The first element that was refused, and why.
     pub(super) error: Option<Error>,
 }
@@ -122,7 +121,7 @@ impl Chain {
             twist: 0.0,
             waiting: [1.0; 2],
             ending: [1.0; 2],
-            gravity: [0.0; 3],
+            gravity: 0.0,
             error: if right { None } else { Some(Error::MotorInertia) },
         }
     }

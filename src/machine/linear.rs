@@ -61,17 +61,14 @@ impl Chain {
     #[must_use]
     pub const fn lifted(self, mass: Mass) -> Self {
         let mut chain = self.driven(mass);
-        let weight = mass.0 * STANDARD_GRAVITY * chain.travel;
-        chain.gravity[0] += weight;
-        chain.gravity[1] += weight / chain.efficiency;
-        chain.gravity[2] += weight * chain.back_efficiency;
+        chain.gravity += mass.0 * STANDARD_GRAVITY * chain.travel;
         chain
     }
 
     /// Mass of the lifted loads (kg), from their weight; zero without one.
     #[must_use]
     pub const fn lifted_mass(&self) -> f64 {
-        if self.gravity[0] > 0.0 { self.gravity[0] / (STANDARD_GRAVITY * self.travel) } else { 0.0 }
+        if self.gravity > 0.0 { self.gravity / (STANDARD_GRAVITY * self.travel) } else { 0.0 }
     }
 
     /// The same hoist with another load, on another length of its rope: the lifted mass and the stiffness of the last
@@ -93,8 +90,7 @@ impl Chain {
         let last = self.count - 1;
         self.inertia[last] += self.at_motor(load.0) - self.at_motor(lifted);
         self.shaft[last - 1].stiffness *= share;
-        let weights = load.0 / lifted;
-        self.gravity = [self.gravity[0] * weights, self.gravity[1] * weights, self.gravity[2] * weights];
+        self.gravity *= load.0 / lifted;
         self
     }
 

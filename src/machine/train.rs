@@ -62,7 +62,7 @@ pub struct Train {
     /// Damping of each mass by slipping rings (N m s/rad).
     pub(super) drag: [f64; CAPACITY],
     /// Weight torque without losses, hoisting and lowering (N m).
-    gravity: [f64; 3],
+    gravity: f64,
     /// The first chain or shaft that was refused, and why.
     error: Option<Error>,
 }
@@ -134,9 +134,7 @@ impl Train {
         let [efficiency, back] = self.efficiencies(at);
         let (flow, loss) = (self.flow, if matches!(self.flow, Flow::Overhauling) { back } else { efficiency });
         self.inertia[at] += refer_inertia(branch.inertia[0], ratio.0, loss, Side::Load, flow);
-        self.gravity[0] += branch.gravity[0] / ratio.0;
-        self.gravity[1] += branch.gravity[1] / (ratio.0 * efficiency);
-        self.gravity[2] += branch.gravity[2] * back / ratio.0;
+        self.gravity += branch.gravity / ratio.0;
         let first = self.count;
         each!(j, 1..branch.count, {
             let own = branch.shaft[j - 1];
@@ -223,19 +221,7 @@ impl Train {
     /// Torque of the weights at the motor (N m), without losses.
     #[must_use]
     pub const fn gravity_torque(&self) -> f64 {
-        self.gravity[0]
-    }
-
-    /// Torque of the weights at the motor while it drives them up (N m): each over the efficiency of its way.
-    #[must_use]
-    pub const fn gravity_torque_hoisting(&self) -> f64 {
-        self.gravity[1]
-    }
-
-    /// Torque of the weights at the motor while they drive it (N m): each times the efficiency of its way.
-    #[must_use]
-    pub const fn gravity_torque_lowering(&self) -> f64 {
-        self.gravity[2]
+        self.gravity
     }
 
     /// Efficiency between the motor and a mass while the motor drives, by the shafts of the tree; 1 beyond the masses.
@@ -271,7 +257,7 @@ impl Train {
         if let Some(error) = self.error {
             error.stop()
         }
-        Rigid { inertia: self.total_inertia(), gravity_torque: self.gravity[0] }
+        Rigid { inertia: self.total_inertia(), gravity_torque: self.gravity }
     }
 
     /// Natural frequencies and shapes of the free train, and its antiresonances with the motor locked; gaps count as

@@ -38,19 +38,7 @@ impl Chain {
     /// Torque of the lifted weights at the motor (N m), without losses; positive where it decelerates hoisting.
     #[must_use]
     pub const fn gravity_torque(&self) -> f64 {
-        self.gravity[0]
-    }
-
-    /// Torque of the lifted weights at the motor while it drives them up (N m): over the efficiency.
-    #[must_use]
-    pub const fn gravity_torque_hoisting(&self) -> f64 {
-        self.gravity[1]
-    }
-
-    /// Torque of the lifted weights at the motor while they drive it (N m): times the efficiency.
-    #[must_use]
-    pub const fn gravity_torque_lowering(&self) -> f64 {
-        self.gravity[2]
+        self.gravity
     }
 
     /// Motor turns per turn of the last shaft.

@@ -1,6 +1,6 @@
 //! Where the cylinders stand and when they fire.
 
-use core::f64::consts::{PI, TAU};
+use core::f64::consts::TAU;
 
 use crate::machine::{Error, Length};
 use crate::math::{hypot, sin_cos};
@@ -63,40 +63,6 @@ impl Cylinder {
         let mut all = [Self::new(0.0, 0.0, Length(0.0)); N];
         each!(j, 0..N, {
             all[j] = Self::new(throws[j], 0.0, Length(pitch.0 * j as f64));
-        });
-        all
-    }
-
-    /// Cylinders in two banks at an angle (rad) to each other: a pair for each throw, side by side on it, the throws
-    /// `pitch` apart. Cylinders 1, 3, 5 ... are of the first bank; `throws` has one angle (rad) for each cylinder.
-    #[must_use]
-    pub const fn vee<const N: usize>(throws: [f64; N], angle: f64, pitch: Length) -> [Self; N] {
-        let mut all = [Self::new(0.0, 0.0, Length(0.0)); N];
-        each!(j, 0..N, {
-            let bank = if j % 2 == 0 { -0.5 * angle } else { 0.5 * angle };
-            all[j] = Self::new(throws[j], bank, Length(pitch.0 * (j / 2) as f64));
-        });
-        all
-    }
-
-    /// Opposed cylinders, each on a throw of its own, `pitch` apart, by their throws (rad).
-    #[must_use]
-    pub const fn boxer<const N: usize>(throws: [f64; N], pitch: Length) -> [Self; N] {
-        let mut all = [Self::new(0.0, 0.0, Length(0.0)); N];
-        each!(j, 0..N, {
-            let bank = if j % 2 == 0 { 0.0 } else { PI };
-            all[j] = Self::new(throws[j], bank, Length(pitch.0 * j as f64));
-        });
-        all
-    }
-
-    /// A star (radial engine): all cylinders on one throw, evenly spread. Every connecting rod counts as one on the
-    /// pin; the articulated rods of a master rod are not modelled.
-    #[must_use]
-    pub const fn star<const N: usize>() -> [Self; N] {
-        let mut all = [Self::new(0.0, 0.0, Length(0.0)); N];
-        each!(j, 0..N, {
-            all[j] = Self::new(0.0, TAU * j as f64 / N as f64, Length(0.0));
         });
         all
     }

@@ -13,7 +13,9 @@ use crate::math::sqrt;
 /// ```
 /// use driveline::machine::{Induction, Speed, Torque};
 /// let motor = Induction::new(Speed(154.99), Torque(750.0), Speed(157.08), 2.5);
-/// assert!((motor.torque(motor.breakdown_speed()).0 / 750.0 - 2.5).abs() < 1e-9);
+/// // the largest torque at the breakdown slip [Wang 1989 (1-8)]
+/// let breakdown = Speed(motor.synchronous * (1.0 - motor.breakdown_slip));
+/// assert!((motor.torque(breakdown).0 / 750.0 - 2.5).abs() < 1e-9);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -83,12 +85,6 @@ impl Induction {
         let (s, a) = (1.0 - speed.0 / self.synchronous, self.breakdown_slip);
         let sum = s * s + a * a;
         (2.0 * self.breakdown * a * (a - s) * (a + s) / (sum * sum) / self.synchronous).abs()
-    }
-
-    /// Speed of the largest torque [Wang 1989 (1-8)]; negative where the rotor's resistance puts it beyond standstill.
-    #[must_use]
-    pub const fn breakdown_speed(&self) -> Speed {
-        Speed(self.synchronous * (1.0 - self.breakdown_slip))
     }
 
     /// Torque at standstill.

@@ -53,22 +53,6 @@ impl StartingLaw {
         })
     }
 
-    /// Angular impulse up to a time (s): the integral of the torque (N m s).
-    #[must_use]
-    pub const fn impulse(&self, t: f64) -> f64 {
-        match *self {
-            Self::Hard { torque } => torque * t,
-            Self::Medium { torque, time } => {
-                let end = if t < time { t } else { time };
-                torque * end * (1.0 - end * end / (3.0 * time * time))
-            }
-            Self::Soft { torque, time } => {
-                let end = if t < time { t } else { time };
-                torque * end * (1.0 - 0.5 * end / time)
-            }
-        }
-    }
-
     /// Starting time T (s) that brings a rigid machine to a speed (rad/s) against a load torque that is constant:
     /// `J omega = integral of (tau - tau_L)`; infinite where the torque does not suffice.
     ///

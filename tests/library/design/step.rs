@@ -133,7 +133,8 @@ fn exact_step_meets_the_reference_matrices() {
         let machine = TwoMass::new(Inertia(jm), Inertia(jl), Stiffness(k), Damping(number(case, "d_Nms_rad")));
         let t = number(case, "Ts_s");
         let step = ExactStep::new(&machine, t);
-        let (h_twist, h_slip, h_drive) = step.impulse(&machine);
+        // the shaft's impulse from motor to load, by twist, twist rate and forcing
+        let [h_twist, h_slip, h_drive] = [-step.n21, -step.n22, step.lag].map(|each| jm * jl / (jm + jl) * each);
         // States w_m, k delta, w_l; inputs tau_m, tau_L.
         let f = Matrix([
             [1.0 - h_slip / jm, -h_twist / k / jm, h_slip / jm],

@@ -33,7 +33,8 @@ impl Loop {
             .rotor(Inertia(rest))
             .shaft(Stiffness(stiffness), Damping(damping))
             .rotor(Inertia(load_inertia));
-        let (plant, alone, period) = (Plant::of_chain(&chain), Plant::of(&self.two), self.speed_loop.period);
+        let (plant, alone, period) =
+            (Plant::of_modes(chain.total_inertia(), &chain.modes()), Plant::of(&self.two), self.speed_loop.period);
         let late = Actuator { delay: period, lag: Tolerance::USUAL.lag };
         [Actuator::DIRECT, late].into_iter().all(|actuator| {
             let closed = ClosedLoop::of(&self.observer, &self.speed_loop, actuator).unwrap();

@@ -16,6 +16,23 @@ const PITCH: f64 = 0.13;
 /// moments about the middle in units of one cylinder's times the pitch.
 type Arrangement<'c> = (&'static str, &'c [Cylinder], [[f64; 2]; 4]);
 
+/// Two banks at an angle (rad), cylinders 1, 3, 5 ... of the first: a pair for each throw.
+fn vee<const N: usize>(throws: [f64; N], angle: f64, pitch: Length) -> [Cylinder; N] {
+    let bank = |j: usize| if j.is_multiple_of(2) { -0.5 * angle } else { 0.5 * angle };
+    std::array::from_fn(|j| Cylinder::new(throws[j], bank(j), Length(pitch.0 * (j / 2) as f64)))
+}
+
+/// Opposed cylinders, each on a throw of its own.
+fn boxer<const N: usize>(throws: [f64; N], pitch: Length) -> [Cylinder; N] {
+    let bank = |j: usize| if j.is_multiple_of(2) { 0.0 } else { PI };
+    std::array::from_fn(|j| Cylinder::new(throws[j], bank(j), Length(pitch.0 * j as f64)))
+}
+
+/// A star: all cylinders on one throw, evenly spread.
+fn star<const N: usize>() -> [Cylinder; N] {
+    std::array::from_fn(|j| Cylinder::new(0.0, TAU * j as f64 / N as f64, Length(0.0)))
+}
+
 /// Two equal and opposite parts swing along a line.
 const fn line(amplitude: f64) -> [f64; 2] {
     [amplitude, 0.0]
@@ -57,25 +74,21 @@ fn first_and_second_order_of_fourteen_arrangements() {
             [none, none, none, none],
         ),
         // second order: along the bisector 2 cos 45 cos 90, across it 2 sin 45 sin 90
-        ("V2, 90 degrees", &Cylinder::vee([0.0; 2], quarter, pitch), [circle(1.0), line(SQRT_2), none, none]),
+        ("V2, 90 degrees", &vee([0.0; 2], quarter, pitch), [circle(1.0), line(SQRT_2), none, none]),
         // first order: 2 cos^2 30 and 2 sin^2 30; second: 2 cos 30 cos 60 and 2 sin 30 sin 60
-        (
-            "V2, 60 degrees",
-            &Cylinder::vee([0.0; 2], FRAC_PI_3, pitch),
-            [[1.5, 0.5], circle(0.75f64.sqrt()), none, none],
-        ),
+        ("V2, 60 degrees", &vee([0.0; 2], FRAC_PI_3, pitch), [[1.5, 0.5], circle(0.75f64.sqrt()), none, none]),
         // the pairs of the V2, at -3/2, -1/2, 1/2, 3/2: -3/2 - i/2 - i/2 - 3/2; the second orders are + - - +
         (
             "V8, 90 degrees, cross plane",
-            &Cylinder::vee([0.0, 0.0, quarter, quarter, -quarter, -quarter, turned, turned], quarter, pitch),
+            &vee([0.0, 0.0, quarter, quarter, -quarter, -quarter, turned, turned], quarter, pitch),
             [none, none, circle(10f64.sqrt()), none],
         ),
-        ("boxer, two", &Cylinder::boxer([0.0, turned], pitch), [none, none, line(1.0), line(1.0)]),
+        ("boxer, two", &boxer([0.0, turned], pitch), [none, none, line(1.0), line(1.0)]),
         // second order + - + -: -3/2 + 1/2 + 1/2 - 3/2
-        ("boxer, four", &Cylinder::boxer([0.0, turned, turned, 0.0], pitch), [none, none, none, line(2.0)]),
+        ("boxer, four", &boxer([0.0, turned, turned, 0.0], pitch), [none, none, none, line(2.0)]),
         // the backward parts are 120 degrees apart in the first order, together in the second
-        ("star, three", &Cylinder::star::<3>(), [circle(1.5), circle(1.5), none, none]),
-        ("star, five", &Cylinder::star::<5>(), [circle(2.5), none, none, none]),
+        ("star, three", &star::<3>(), [circle(1.5), circle(1.5), none, none]),
+        ("star, five", &star::<5>(), [circle(2.5), none, none, none]),
     ];
     for (name, cylinders, expected) in arrangements {
         let middle = cylinders.iter().map(|cylinder| cylinder.position).sum::<f64>() / cylinders.len() as f64;
@@ -112,11 +125,11 @@ fn the_orders_are_those_of_the_sampled_sliders() {
         &Cylinder::in_line([0.0, THIRD, 2.0 * THIRD], pitch),
         &Cylinder::in_line([0.0, turned, turned, 0.0], pitch),
         &Cylinder::in_line([0.0, 3.0 * fifth, 2.0 * fifth, fifth, 4.0 * fifth], pitch),
-        &Cylinder::vee([0.0; 2], FRAC_PI_3, pitch),
-        &Cylinder::vee([0.3, 0.3, 1.9, 1.9], 1.1, pitch),
-        &Cylinder::vee([0.0, 0.0, quarter, quarter, -quarter, -quarter, turned, turned], quarter, pitch),
-        &Cylinder::boxer([0.0, turned], pitch),
-        &Cylinder::star::<5>(),
+        &vee([0.0; 2], FRAC_PI_3, pitch),
+        &vee([0.3, 0.3, 1.9, 1.9], 1.1, pitch),
+        &vee([0.0, 0.0, quarter, quarter, -quarter, -quarter, turned, turned], quarter, pitch),
+        &boxer([0.0, turned], pitch),
+        &star::<5>(),
         &Cylinder::in_line([0.0, 0.7, 3.1], pitch),
     ];
     for (number, cylinders) in arrangements.into_iter().enumerate() {
@@ -177,7 +190,7 @@ fn counterweights_and_balance_shafts_take_their_share() {
     assert_eq!(half.with_balance_shafts(0.0, 1.0).largest(), 0.0);
     assert_eq!(free_forces(&pair, 1), single);
     // a 90 degree V2 by its counterweight alone
-    let vee = free_forces(&Cylinder::vee([0.4; 2], FRAC_PI_2, Length(0.0)), 1);
+    let vee = free_forces(&vee([0.4; 2], FRAC_PI_2, Length(0.0)), 1);
     // sums of two sines
     assert!(vee.counterweighted(0.5).largest() < 1e-15, "{vee:?}");
     // a four in line by two shafts at twice the speed
@@ -349,7 +362,7 @@ fn phasor_sums_by_order_and_shape() {
         assert!((phasor_sum(&SIX, &twisted, order) - elastic).abs() < 1e-13, "{order}");
     }
     // a star of five on two turns, every second cylinder
-    let star = Cylinder::fired(Cylinder::star::<5>(), [1, 3, 5, 2, 4]);
+    let star = Cylinder::fired(star::<5>(), [1, 3, 5, 2, 4]);
     let mut firing = star.map(|cylinder| cylinder.firing);
     firing.sort_by(f64::total_cmp);
     assert!(firing.iter().enumerate().all(|(j, angle)| (angle - 0.4 * j as f64 * TAU).abs() < 1e-14), "{firing:?}");

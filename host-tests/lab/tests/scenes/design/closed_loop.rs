@@ -247,8 +247,10 @@ fn gain_margins_are_those_of_the_full_plant() {
         for late in [0, 1] {
             let Scene(name, chain, observer, speed_loop, _) = &scene;
             let actuator = Actuator { delay: late as f64 * observer.period, lag: 0.0 };
-            let margins =
-                ClosedLoop::of(observer, speed_loop, actuator).unwrap().margins(&Plant::of_chain(chain)).unwrap();
+            let margins = ClosedLoop::of(observer, speed_loop, actuator)
+                .unwrap()
+                .margins(&Plant::of_modes(chain.total_inertia(), &chain.modes()))
+                .unwrap();
             println!("{name}, {late} late: {margins:?}");
             let known = TwoMassConfig::<f64>::new(observer, Bases::SI);
             let settles = |gain| settles::<observer::TwoMassObserver<f64>>(&scene, &known, gain, late);
@@ -273,7 +275,7 @@ fn gain_margins_with_one_mass_are_those_of_the_full_plant() {
         let speed_loop = Known::TWO_MASS.speed_loop(Rate::hz(rate), Known::TUNING);
         let scene = Scene("rigid", Known::CHAIN, observer, speed_loop, 6.0);
         let closed = ClosedLoop::of_rigid(&rigid, &speed_loop, Actuator::DIRECT).unwrap();
-        let margins = closed.margins(&Plant::of_chain(&Known::CHAIN)).unwrap();
+        let margins = closed.margins(&Plant::of_modes(Known::CHAIN.total_inertia(), &Known::CHAIN.modes())).unwrap();
         println!("{rate}: {margins:?}");
         let known = RigidConfig::<f64>::new(&rigid, Known::LOAD_SHARE, Bases::SI);
         let settles = |gain| settles::<observer::RigidObserver<f64>>(&scene, &known, gain, 0);
