@@ -7,6 +7,7 @@ use nalgebra::{DMatrix, DVector, RowDVector};
 
 use super::error::RotorError;
 use super::model::Model;
+use super::pencil::Strain;
 use crate::jacobi::{norm, orthogonal};
 
 /// A rotor in modal coordinates.
@@ -22,25 +23,40 @@ pub struct Modal {
     pub(super) sensors: Vec<RowDVector<f64>>,
 }
 
+/// `G` of the symmetric stiffness `G G^T`: a column for each part, so that a soft bearing keeps its digits beside a stiff
+/// shaft; where a bearing couples both directions, the factor of Cholesky.
+fn springs(model: &Model) -> Option<DMatrix<f64>> {
+    let parts: Vec<&Strain> = model.strains.iter().filter(|strain| strain.stiffness != 0.0).collect();
+    let n = model.coordinates();
+    if parts.len() < n || parts.iter().any(|strain| strain.stiffness < 0.0 || strain.force != strain.motion) {
+        let symmetric = (&model.stiffness + model.stiffness.transpose()) * 0.5;
+        return Some(symmetric.cholesky()?.l());
+    }
+    let mut factor = DMatrix::zeros(n, parts.len());
+    for (column, strain) in parts.into_iter().enumerate() {
+        strain.motion.iter().for_each(|&(at, share)| factor[(at, column)] += strain.stiffness.sqrt() * share);
+    }
+    Some(factor)
+}
+
 impl Modal {
     /// All vibrations of a model.
     ///
     /// # Errors
     /// [`RotorError::NotHeld`] where some motion meets no stiffness.
     pub fn of(model: &Model) -> Result<Self, RotorError> {
-        let symmetric = (&model.stiffness + model.stiffness.transpose()) * 0.5;
         model.held()?;
         let inertia = model.mass.clone().cholesky().ok_or(RotorError::NotHeld)?.l();
-        let spring = symmetric.cholesky().ok_or(RotorError::NotHeld)?.l();
-        // L^-1 G of K = G G^T and M = L L^T: its singular values are the frequencies
+        let spring = springs(model).ok_or(RotorError::NotHeld)?;
+        // L^-1 G of K = G G^T and M = L L^T: its singular values are the frequencies, its left vectors the shapes
         let scaled = inertia.solve_lower_triangular(&spring).ok_or(RotorError::NotHeld)?;
-        let n = model.coordinates();
-        let columns = scaled.column_iter().map(|column| column.iter().copied().collect()).collect();
-        // each its frequency times its shape
-        let mut lowest: Vec<Vec<f64>> = orthogonal(columns, n);
+        let (n, parts) = scaled.shape();
+        let carried = |row: usize| (0..n).map(move |at| f64::from(u8::from(at == row)));
+        let columns = (0..n).map(|row| scaled.row(row).iter().copied().chain(carried(row)).collect()).collect();
+        let mut lowest: Vec<Vec<f64>> = orthogonal(columns, parts);
         lowest.reverse();
-        let frequency = DVector::from_iterator(n, lowest.iter().map(|column| norm(column)));
-        let shapes = DMatrix::from_fn(n, n, |row, k| lowest[k][row] / frequency[k]);
+        let frequency = DVector::from_iterator(n, lowest.iter().map(|column| norm(&column[..parts])));
+        let shapes = DMatrix::from_fn(n, n, |row, k| lowest[k][parts + row]);
         let phi = inertia.tr_solve_lower_triangular(&shapes).ok_or(RotorError::NotHeld)?;
         let project = |matrix: &DMatrix<f64>| phi.transpose() * matrix * &phi;
         Ok(Modal {
