@@ -78,7 +78,7 @@ mod window;
 
 pub use bin::{Bin, Summed, WaveformConfig};
 pub use cycle_mean::{CycleMean, CycleMeanConfig};
-pub use cylinders::{Cylinder, CylinderVerdict, Engine};
+pub use cylinders::{Coupling, Cylinder, CylinderVerdict, Engine};
 pub use extremes::{Extreme, Extremes, Fluctuations, Ranked, Reading, SpeedErrors};
 pub use flywheel::{Balance, Flywheel, MachineClass, Remedy};
 pub use interleaved::Interleaved;

@@ -56,6 +56,8 @@ pub trait Composition: Sized {
     fn governor(&self) -> &Self::Governor;
     /// As [`Drive::governor_mut`].
     fn governor_mut(&mut self) -> &mut Self::Governor;
+    /// As [`Drive::fluctuation_mut`].
+    fn fluctuation_mut(&mut self) -> &mut Self::Fluctuation;
     /// The torque that was commanded for the tick that has begun.
     fn commanded(&self) -> Self::Number;
     /// As [`Drive::vibration`].
@@ -108,6 +110,10 @@ macro_rules! handed_on {
 
         fn governor_mut(&mut self) -> &mut Self::Governor {
             self.drive.governor_mut()
+        }
+
+        fn fluctuation_mut(&mut self) -> &mut Self::Fluctuation {
+            self.drive.fluctuation_mut()
         }
     };
 }
@@ -186,6 +192,7 @@ where
         fn observer_mut(&mut self) -> &mut Self::Observer;
         fn governor(&self) -> &Self::Governor;
         fn governor_mut(&mut self) -> &mut Self::Governor;
+        fn fluctuation_mut(&mut self) -> &mut Self::Fluctuation;
         fn vibration(&mut self, config: &Self::Config, vibration: &VibrationOf<Self>);
         fn vibration_missing(&mut self, faults: Faults);
         fn estimate(&self, config: &Self::Config) -> Estimate<N>;

@@ -220,6 +220,10 @@ impl<D: Composition + Clone, const K: usize> Composition for Recorded<D, K> {
         self.drive_mut().governor_mut()
     }
 
+    fn fluctuation_mut(&mut self) -> &mut Self::Fluctuation {
+        self.drive_mut().fluctuation_mut()
+    }
+
     #[inline(always)]
     fn vibration(&mut self, config: &Self::Config, vibration: &VibrationOf<Self>) {
         self.drive.vibration(config, vibration);

@@ -5,15 +5,16 @@
 //! from the torque's orders below the firing order by an inverse discrete Fourier transform. Torques of compression
 //! and of the masses are the same for all cylinders and cancel.
 //!
-//! The torque is that which accelerates the whole inertia, `d/dphi (J omega^2/2)`: for a machine whose crankshaft and
-//! coupling are rigid at the orders used. `P` is that of a combustion torque `x e^(-x/a)` behind the dead centre, with
+//! The torque is that which accelerates the inertia, `d/dphi (J omega^2/2)`, with a crankshaft that is rigid at the orders
+//! used. Behind an elastic coupling (k, d) the load J_l swings by itself: at the frequency w of an order, J is
+//! `J_e + J_l (k + j w d)/(k - J_l w^2 + j w d)` \[derived\]. `P` is that of a combustion torque `x e^(-x/a)` behind the dead centre, with
 //! its largest value at the angle `a`: `1/(1 + j k a)^2` at the k-th order of a turn.
 
 use core::f64::consts::TAU;
 
 use super::Ripple;
 use super::series::{Order, Series, circle};
-use crate::math::{sin_cos, sqrt};
+use crate::math::{hypot, sin_cos, sqrt};
 
 /// An engine with `CYLINDERS` cylinders that fire evenly, once in the cycle of its ripple.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,10 +26,34 @@ pub struct Engine<const CYLINDERS: usize> {
     pub first: f64,
     /// From top dead centre to the largest torque of combustion (rad); 0.6 as a rule.
     pub peak: f64,
-    /// Inertia of engine, flywheel and load (kg m2).
+    /// Inertia of engine and flywheel, and of all that is rigidly coupled to them (kg m2).
     pub inertia: f64,
+    /// The elastic coupling of the load; `None` where the load is rigidly coupled.
+    pub coupling: Option<Coupling>,
     /// Turns of the crank to a cycle: 2 of a four-stroke engine, 1 of a two-stroke engine.
     pub turns: u32,
+}
+
+/// An elastic coupling and the load behind it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Coupling {
+    /// Stiffness (N m/rad).
+    pub stiffness: f64,
+    /// Damping (N m s/rad).
+    pub damping: f64,
+    /// Inertia of the load (kg m2).
+    pub load: f64,
+}
+
+impl<const CYLINDERS: usize> Engine<CYLINDERS> {
+    /// Torque over acceleration at a frequency (rad/s), real and imaginary part (kg m2).
+    fn inertia_at(&self, frequency: f64) -> (f64, f64) {
+        let Some(Coupling { stiffness, damping, load }) = self.coupling else { return (self.inertia, 0.0) };
+        let (free, loss) = (stiffness - load * frequency * frequency, frequency * damping);
+        let share = load / (free * free + loss * loss);
+        (self.inertia + share * (stiffness * free + loss * loss), share * loss * (free - stiffness))
+    }
 }
 
 /// Verdict on a cylinder.
@@ -88,19 +113,21 @@ impl Ripple {
         let count = CYLINDERS.max(1) as f64;
         let circle = circle();
         let half = CYLINDERS / 2;
-        let energy = self.speed.grid(&circle).map(|speed| 0.5 * engine.inertia * speed * speed);
-        let torque = Series::of(&energy, &circle, half).derivative();
+        let energy = self.speed.grid(&circle).map(|speed| 0.5 * speed * speed);
+        let per_inertia = Series::of(&energy, &circle, half).derivative();
         let mut differences = [0.0; CYLINDERS];
         let mut variance = 0.0;
         // The scatter of an amplitude (rad) over its teeth and cycles, and of the order of the torque that it makes.
         let scatter = self.quality.spread / sqrt(0.5 * teeth.max(1) as f64 * f64::from(self.cycles.max(1)));
-        for (m, order) in (1_u32..).zip(torque.orders.iter().take(half)) {
+        for (m, order) in (1_u32..).zip(per_inertia.orders.iter().take(half)) {
             let k = f64::from(m) / turns;
             // (1 + j k a)^2/2, as a complex number.
             let ka = k * engine.peak;
             let (re, im) = (0.5 * (1.0 - ka * ka), ka);
             // cos - j sin, per radian of the crank.
             let (a, b) = (order.cos / turns, -order.sin / turns);
+            let (j, lag) = engine.inertia_at(k * self.mean);
+            let (a, b) = (a * j - b * lag, a * lag + b * j);
             let sum = Order { cos: a * re - b * im, sin: a * im + b * re };
             let alone = 2 * m as usize == CYLINDERS;
             let weight = if alone { 1.0 } else { 2.0 } / count;
@@ -109,7 +136,7 @@ impl Ripple {
                 let (s, c) = sin_cos(f64::from(m) * firing);
                 *difference += weight * (sum.cos * c - sum.sin * s);
             }
-            let size = 0.5 * (1.0 + ka * ka) * engine.inertia * self.mean * self.mean * k * k * scatter;
+            let size = 0.5 * (1.0 + ka * ka) * hypot(j, lag) * self.mean * self.mean * k * k * scatter;
             variance += weight * weight * size * size;
         }
         let own = mean_torque / count;

@@ -68,7 +68,7 @@ fn engine<const Z: usize>(torques: [f64; Z], turns: u32, quality: Quality, cycle
     for (k, number) in firing_order.iter_mut().enumerate() {
         *number = 10 + k as u8;
     }
-    let engine = Engine { firing_order, first, peak, inertia, turns };
+    let engine = Engine { firing_order, first, peak, inertia, coupling: None, turns };
     ripple.cylinders(&engine, torques.iter().sum(), 50)
 }
 
@@ -134,7 +134,8 @@ fn a_cylinder_without_a_verdict() {
     assert!(braking.iter().all(|cylinder| cylinder.verdict == CylinderVerdict::Uncertain));
     let mut short = ripple(|theta| 100.0 + theta.cos() + (2.0 * theta).sin(), 0.0, 8, Quality::default());
     let of = |ripple: &Ripple| {
-        let engine = Engine { firing_order: [1, 3, 4, 2], first: 0.0, peak: 0.6, inertia: 1.0, turns: 2 };
+        let engine =
+            Engine { firing_order: [1, 3, 4, 2], first: 0.0, peak: 0.6, inertia: 1.0, coupling: None, turns: 2 };
         ripple.cylinders(&engine, 1e6, 50)[0]
     };
     assert_eq!(of(&short).verdict, CylinderVerdict::Good);

@@ -30,6 +30,7 @@
 //! | setpoint: frozen, noisy, no number | the ramp hardly moves; the last good one | rides through |
 //! | setpoint: dropped, negated | the ramp hardly moves | is one: the set slows down, and trips by underspeed, or its coupling by overload |
 
+pub mod cylinders;
 pub mod parts;
 
 use core::marker::PhantomData;
@@ -42,6 +43,7 @@ use driveline::design::{
     TorqueCurve, USUAL_MARGIN, VirtualInertia,
 };
 use driveline::drive::{Actuated, Composition, ConfigOf, Drive};
+use driveline::fluctuation::Waveform;
 use driveline::governor::{
     AccelerationFeedback, Barred, Curve, Droop, FeedForward, HasRunSequence, MovingAverage, RunRequest, RunState,
     Sequencer, SpeedGovernor, Trip,
@@ -51,7 +53,7 @@ use driveline::machine::{
 };
 use driveline::number::Fixed;
 use driveline::observer::TwoMassObserver;
-use driveline::settings::{ActuatorMonitorSettings, Bases, Screening};
+use driveline::settings::{ActuatorMonitorSettings, Bases, Cycle, Screening};
 
 use crate::scene::composed::{Beside, Composed, output, sample};
 use crate::scene::table::variants;
@@ -272,16 +274,19 @@ pub const FIRING: usize = 32;
 /// The governor of a genset, with feed-forward or another compensation.
 pub type Governor<F = FeedForward> = SpeedGovernor<(Droop, Barred<1>), F, Curve<4>, Sequencer, MovingAverage<FIRING>>;
 /// The drive of a set behind its actuator, with the ticks of the actuator's delay.
-type DriveOf<N, F, const RING: usize> = Actuated<Drive<N, TwoMassObserver, Governor<F>>, 2, RING>;
+type DriveOf<N, F, const RING: usize, M = ()> = Actuated<Drive<N, TwoMassObserver, Governor<F>, M>, 2, RING>;
 
 /// The diesel set's drive.
 pub type Diesel<N> = Composed<DriveOf<N, FeedForward, 32>, Switches>;
+/// The diesel set's drive with its cylinders watched.
+pub type Watched<N> = Composed<cylinders::Drive<N>, cylinders::Cylinders>;
 /// The turbine set's drive.
 pub type Turbine<N> = Composed<DriveOf<N, (FeedForward, AccelerationFeedback), 1>, Switches>;
 
 variants! {
     "diesel": Diesel for With<DieselSet, FED>;
     "turbine": Turbine for With<TurbineSet, FED>;
+    "cylinders": Watched for With<DieselSet, FED>;
 }
 
 /// The diesel set.
@@ -332,6 +337,8 @@ impl<S: HasSet, const CONSTANTS: usize> Machine for With<S, CONSTANTS> {
     const RAMP: f64 = S::SET.ramp;
     const BASES: Bases = S::SET.bases();
     const SCREENING: Screening = S::SET.screening();
+    const CYCLE: Cycle = Cycle::FOUR_STROKE;
+    const CYCLES: u32 = 8;
 }
 
 impl<S: HasSet, const CONSTANTS: usize> HasDroop for With<S, CONSTANTS> {
@@ -385,20 +392,25 @@ pub trait Choices: Composition<Config: 'static, Governor: HasRunSequence> {
 }
 
 macro_rules! choices {
-    ($($set:ident: $added:ty, $ring:literal in $($number:ty),+;)+) => {$($(
-        impl Choices for DriveOf<$number, $added, $ring> {
+    ($($set:ident: $added:ty, $ring:literal, $measured:ty;)+) => {
+        choices! { @ f32: $($set: $added, $ring, $measured;)+ }
+        choices! { @ Fixed: $($set: $added, $ring, $measured;)+ }
+    };
+    (@ $number:ty: $($set:ident: $added:ty, $ring:literal, $measured:ty;)+) => {$(
+        impl Choices for DriveOf<$number, $added, $ring, $measured> {
             const CONFIGS: &'static [ConfigOf<Self>; 3] = &[
                 Self::configure::<With<$set, FED>>(),
                 Self::configure::<With<$set, PLAIN>>(),
                 Self::configure::<With<$set, DROOPING>>(),
             ];
         }
-    )+)+};
+    )+};
 }
 
 choices! {
-    DieselSet: FeedForward, 32 in f32, Fixed;
-    TurbineSet: (FeedForward, AccelerationFeedback), 1 in f32, Fixed;
+    DieselSet: FeedForward, 32, ();
+    DieselSet: FeedForward, 32, Waveform<{ cylinders::BINS }>;
+    TurbineSet: (FeedForward, AccelerationFeedback), 1, ();
 }
 
 /// The set's run switch ([`Input::RELEASED`]: on it starts, off it brakes, and off resets a trip) and its panel.

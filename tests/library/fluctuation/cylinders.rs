@@ -65,7 +65,8 @@ impl Simulated {
         let mut random = Random(seed);
         let config =
             ToothedWheelConfig::new(&Teeth::<58>::gap(60, 2), ToothClock { turns: 2, clock: 4e6, lowest_speed: 10.0 });
-        let engine = Engine { firing_order: order, first: 0.0, peak: 0.9, inertia: self.inertia, turns: 2 };
+        let engine =
+            Engine { firing_order: order, first: 0.0, peak: 0.9, inertia: self.inertia, coupling: None, turns: 2 };
         let mut wheel = ToothedWheel::<CycleTimes<116>>::default();
         let (mut window, mut found) = (ToothWindow::default(), Vec::new());
         let (mut time, mut energy) = (0.0, 0.5 * self.inertia * self.speed * self.speed);

@@ -317,7 +317,7 @@ fn both(rate: f64, speed: f64, parts: &[Part]) -> [Result<Ripple, Unusable>; 2] 
 fn too_few_orders_give_no_verdict_on_cylinders() {
     let (ripple, _, _) = measured::<58>(&[Part { n: 2.0, amplitude: 5e-3, phase: 0.7 }], 1, 157.0, 0.0, 1);
     let firing_order: [u8; 12] = core::array::from_fn(|place| place as u8 + 1);
-    let engine = Engine { firing_order, first: 0.0, peak: 0.9, inertia: 0.25, turns: 1 };
+    let engine = Engine { firing_order, first: 0.0, peak: 0.9, inertia: 0.25, coupling: None, turns: 1 };
     for cylinder in ripple.cylinders(&engine, 120.0, 58) {
         assert!(cylinder.verdict == CylinderVerdict::Uncertain && cylinder.deviation.is_nan(), "{cylinder:?}");
     }

@@ -65,6 +65,8 @@ pub struct Diesel {
     angle: [f64; CYLINDERS],
     /// Speed of each throw at the beginning of the last step; none before the first.
     speeds: Option<[f64; CYLINDERS]>,
+    /// Share of its fuel that each cylinder burns, in the order of the crank's throws; 1 of a sound one.
+    pub burns: [f64; CYLINDERS],
     /// The rack no longer moves.
     seized: bool,
 }
@@ -111,6 +113,7 @@ impl Diesel {
             fuel: [0.0; CYLINDERS],
             angle,
             speeds: None,
+            burns: [1.0; CYLINDERS],
             seized: false,
         }
     }
@@ -163,7 +166,7 @@ impl Diesel {
             // The injection's angle is passed: the fuel of the next cycle.
             let injection = IGNITION.rem_euclid(2.0 * TAU);
             if self.angle[k] < injection && now >= injection {
-                self.fuel[k] = CALIBRATION * (1.0 + UNEVEN[k]) * self.rack.min(burns);
+                self.fuel[k] = CALIBRATION * self.burns[k] * (1.0 + UNEVEN[k]) * self.rack.min(burns);
             }
             self.angle[k] = now;
             let pressure = AMBIENT + CHARGE * self.charge;

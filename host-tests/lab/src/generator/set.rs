@@ -99,6 +99,13 @@ impl Set {
         self.power = share * self.rated_power;
     }
 
+    /// The share of its fuel that each of the diesel's cylinders burns from its next injection on.
+    pub fn set_burns(&mut self, burns: [f64; CYLINDERS]) {
+        if let Mover::Diesel(diesel) = &mut self.mover {
+            diesel.burns = burns;
+        }
+    }
+
     /// The rack or valve stays where it is from now on.
     pub fn seize(&mut self) {
         match &mut self.mover {
