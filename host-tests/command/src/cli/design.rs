@@ -5,6 +5,7 @@ mod command;
 mod crossings;
 mod linear;
 mod page;
+pub mod rates;
 mod responses;
 
 #[cfg(not(target_family = "wasm"))]
@@ -30,6 +31,9 @@ struct Whole<'p> {
     plan: &'p Plan,
     /// `null` where the machine has no shaft.
     responses: Option<Responses>,
+    /// Rates and observers side by side, where they are asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rates: Option<Vec<rates::Choice>>,
 }
 
 /// The design as a page in a browser has it.
@@ -54,7 +58,7 @@ impl Answered {
         let page = page(&plan, responses.as_ref());
         let is_stable = plan.speed_loop.as_ref().is_none_or(|governor| governor.no_margins.is_none());
         let rust = is_stable.then(|| emitted(machine, &plan)).transpose()?;
-        let json = with_json.then(|| serde_json::to_string(&Whole { plan: &plan, responses })).transpose();
+        let json = with_json.then(|| serde_json::to_string(&Whole { plan: &plan, responses, rates: None })).transpose();
         Ok(Self { json: json.map_err(|error| error.to_string())?, page, rust })
     }
 }

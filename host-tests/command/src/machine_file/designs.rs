@@ -19,6 +19,9 @@ use super::{Duty, MachineFile};
 
 /// Why there is no drive of a machine with branches.
 pub const BRANCHES: &str = "it has branches; leave them out, or write its constants by hand";
+/// Errors of an observer and what its loop lacks, or why there is none.
+pub type AtRate = Result<([f64; 3], Option<&'static str>), String>;
+
 /// Why there is none of a machine without a shaft.
 pub const NO_SHAFT: &str = "it has no shaft, and a drive needs one between motor and load";
 
@@ -362,6 +365,38 @@ impl MachineFile {
             Some(Error::LoopUnstable) => Some(Lack::of(Error::LoopUnstable)),
             error => neglected.or(error.map(Lack::of)),
         })
+    }
+
+    /// The observers of one and of two masses at another rate, the noise of the torque in a tick at the same density:
+    /// errors of shaft torque, load speed and load torque over the tolerances, and what the loop lacks.
+    pub fn at_rate(&self, two: &TwoMass, rate_hz: u32) -> [(&'static str, AtRate); 2] {
+        let mut machine = self.clone();
+        let share = (f64::from(rate_hz) / f64::from(self.control.rate_hz)).sqrt();
+        machine.control.rate_hz = rate_hz;
+        machine.disturbance.torque_accuracy *= share;
+        machine.disturbance.torque_noise = machine.disturbance.torque_noise.map(|noise| noise * share);
+        let (rate, encoder, disturbance) = machine.tuning();
+        let (drawn, tolerance) = (machine.drawn_encoder(), machine.tolerance());
+        let operation = machine.operation(two, machine.rating().ramp(two.total_inertia()));
+        let predicted = |observer: LoopObserver<'_>| {
+            let speed_loop = two.try_speed_loop(rate, machine.speed_loop_tuning(two))?;
+            let error = two.predicted_errors(observer, drawn, &tolerance, &operation).total();
+            let (torque, speed) = (machine.limits.rated_torque, machine.limits.speed);
+            let errors = [error.shaft_torque / torque, error.load_speed / speed, error.load_torque / torque];
+            Ok::<_, Error>((errors, machine.lacks(two, observer, &speed_loop)?.map(|lack| lack.cause)))
+        };
+        let said = |error: Error| error.to_string();
+        let one = || predicted(LoopObserver::Rigid(&machine.rigid()?.try_observer(rate, encoder, disturbance)?));
+        let both = two.try_observer(rate, encoder, disturbance);
+        let step = match both.as_ref().map(|design| design.chosen) {
+            Ok(StepChoice::SemiImplicit) => "semi-implicit",
+            Ok(StepChoice::Exact) => "exact",
+            Err(_) => "two-mass",
+        };
+        [
+            ("rigid", one().map_err(said)),
+            (step, both.and_then(|design| predicted(LoopObserver::TwoMass(&design))).map_err(said)),
+        ]
     }
 
     /// What the loop of a machine lacks with one of its observers.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{Whole, emitted, page, responses, text};
+use super::{Whole, emitted, page, rates, responses, text};
 use crate::cli::results::{Destination, check};
 use crate::cli::{Failure, Plan, say, say_json};
 use crate::machine_file::read;
@@ -18,6 +18,7 @@ use crate::machine_file::read;
   cargo driveline design hoist.toml
   cargo driveline design my.toml --emit rust > src/my_machine.rs
   cargo driveline design my.toml --html my.html
+  cargo driveline design my.toml --rates
   cargo driveline design my.toml --json")]
 pub struct Design {
     /// The machine: a TOML file of elements from the motor to the load
@@ -28,6 +29,9 @@ pub struct Design {
     /// Write a page: Bode and Nyquist plots of the loop, machine, observer, steps, margins, poles
     #[arg(long, value_name = "PATH", alias = "page")]
     html: Option<PathBuf>,
+    /// Compare rates and observers: errors over the tolerances against instructions a second, their front marked
+    #[arg(long, conflicts_with = "emit")]
+    rates: bool,
     /// Print JSON, with the responses as arrays; with --emit, {"rust": "..."}
     #[arg(long)]
     pub json: bool,
@@ -63,7 +67,11 @@ impl Design {
                 say_json(&serde_json::json!({ "rust": emitted(&machine, &plan).map_err(refused)? }))?;
             }
             (Some(Language::Rust), false) => say(emitted(&machine, &plan).map_err(refused)?.trim_end()),
-            (None, true) => say_json(&Whole { plan: &plan, responses: drawn()? })?,
+            (None, true) => {
+                let rates = self.rates.then(|| rates::choices(&machine));
+                say_json(&Whole { plan: &plan, responses: drawn()?, rates })?;
+            }
+            (None, false) if self.rates => say(rates::text(&machine)),
             (None, false) => say(text(&machine, &plan)),
         }
         if let Some(html) = html {
