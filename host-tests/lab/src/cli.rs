@@ -1,5 +1,6 @@
 //! The command line of the laboratory: its own commands, and those of `cargo driveline`.
 
+mod atlas;
 mod balancing;
 mod check;
 mod longest_path;
@@ -26,6 +27,7 @@ struct Lab {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Atlas(atlas::Atlas),
     Check(check::Check),
     LongestPath(longest_path::LongestPath),
     Peers(peers::Peers),
@@ -39,6 +41,7 @@ enum Command {
 impl CommandLine for Lab {
     fn json(&self) -> bool {
         match &self.command {
+            Command::Atlas(_) => false,
             Command::Check(command) => command.json,
             Command::LongestPath(command) => command.json,
             Command::Peers(command) => command.json,
@@ -51,6 +54,7 @@ impl CommandLine for Lab {
 
     fn execute(&self) -> Result<(), Failure> {
         match &self.command {
+            Command::Atlas(command) => command.execute(),
             Command::Check(command) => command.execute(),
             Command::LongestPath(command) => command.execute(),
             Command::Peers(command) => command.execute(),

@@ -1,20 +1,20 @@
 //! The plots of the report, each from its data to an `<svg>` element.
 
 mod campbell;
-mod cost;
 mod label;
 mod lines;
 mod nyquist;
 mod pareto;
 mod polar;
+mod scatter;
 mod shape;
 mod trajectory;
 
 pub use campbell::{Crossing, Ray, campbell};
-pub use cost::{Cost, Quality, error_against_cost};
 pub use lines::{Band, Curve, Line, Lines, over_time};
 pub use nyquist::{Locus, nyquist};
-pub use pareto::front;
+use pareto::front;
 pub use polar::{Arrow, polar};
+pub use scatter::{Dot, fronts, scatter};
 pub use shape::{Station, mode_shape};
 pub use trajectory::course;

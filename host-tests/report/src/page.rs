@@ -4,12 +4,12 @@ use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment};
 use serde::Serialize;
 
-use crate::chart::{self, Cost, Quality};
+use crate::chart;
 use crate::format::significant;
 use crate::report::Report;
-use crate::results::{Budget, Variant};
+use crate::results::Budget;
 use crate::sample::{SAMPLES, samples_table};
-use crate::sheet::{Arrangement, Figure, Key, Section, Sheet};
+use crate::sheet::{Figure, Key, Section, Sheet};
 use crate::table::{Table, variants_table};
 
 /// The page's template and its parts, compiled into the program.
@@ -23,9 +23,6 @@ const TEMPLATES: &[(&str, &str)] = &[
 /// Courses on a page at most, and stretches into which each line of one is cut: the page stays below 3 MB.
 const COURSES: usize = 16;
 const STRETCHES: usize = 400;
-
-/// Colours and markers there are.
-const KINDS: usize = 6;
 
 /// Fills a template. Everything is escaped but what is marked as safe: our own SVG and style.
 ///
@@ -74,7 +71,7 @@ impl Report {
             kicker: "measured against the full solver".to_owned(),
             summary: self.summary.clone(),
             facts: self.facts.clone(),
-            figures: costs(&self.variants).into_iter().chain(courses).collect(),
+            figures: courses.collect(),
             tables,
         }
         .page()
@@ -84,35 +81,6 @@ impl Report {
     pub fn json(&self) -> serde_json::Value {
         serde_json::json!({ "scene": self.scene, "variants": self.variants })
     }
-}
-
-/// Errors against costs; none without a variant. A colour is a number on a core, a marker an observer.
-fn costs(variants: &[Variant]) -> Option<Figure> {
-    variants.first()?;
-    let place = |names: &mut Vec<String>, name: String| {
-        names.iter().position(|known| *known == name).unwrap_or_else(|| {
-            names.push(name);
-            names.len() - 1
-        }) % KINDS
-    };
-    let (mut series, mut observers) = (Vec::new(), Vec::new());
-    let look = |variant: &Variant| {
-        let target = format!("{} on {}", variant.number, variant.core);
-        (place(&mut series, target), place(&mut observers, variant.observer.clone()))
-    };
-    let looks: Vec<(usize, usize)> = variants.iter().map(look).collect();
-    let both = [Quality::ShaftTorque, Quality::LoadSpeed];
-    let plot = |cost| both.map(|quality| chart::error_against_cost(variants, &looks, cost, quality));
-    let legend = series.iter().enumerate().map(|(at, name)| Key::curve(name, format!("s{}", at % KINDS)));
-    Some(Figure {
-        title: "Error against cost".to_owned(),
-        text: "Each point is a variant: its error against the full solver and the cost of its tick on the target. The \
-               line joins the variants that no other betters in both; numbers are rows of the table."
-            .to_owned(),
-        legend: legend.collect(),
-        plots: [Cost::Tick, Cost::Second].into_iter().flat_map(plot).collect(),
-        arrangement: Arrangement::Paired,
-    })
 }
 
 fn budgets_table(budgets: &[Budget]) -> Table {

@@ -59,11 +59,6 @@ pub struct Variant {
 }
 
 impl Variant {
-    /// Instructions a second, by the most of the run.
-    pub fn instructions_per_second(&self) -> f64 {
-        self.instructions.max as f64 * f64::from(self.rate_hz)
-    }
-
     /// The variant in a line: `f32 · m4f · reduced · 10 kHz`.
     pub fn label(&self) -> String {
         format!("{} · {} · {} · {}", self.number, self.core, self.observer, super::format::rate(self.rate_hz))

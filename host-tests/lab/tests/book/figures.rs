@@ -1,5 +1,7 @@
 //! Instructions and bytes on the pages against `budgets.toml`, which `cargo lab check --only budgets` measures.
 
+use cargo_driveline::cli::design::rates::INSTRUCTIONS;
+use driveline_lab::atlas::{Atlas, CORES};
 use driveline_qemu::measure::budgets::{Budget, Budgets};
 
 use super::pages::{Page, root};
@@ -169,5 +171,57 @@ fn no_peer_wins_in_the_last_run() {
     assert!(columns.len() == 2 && scenes.len() == 2 * 7, "{heading:?}");
     for row in scenes {
         assert!(columns.iter().all(|&at| row[at] == "none"), "{row:?}");
+    }
+}
+
+/// Each error of the atlas stands in its page, in a row that has the part's words; its tables and its picture are those
+/// that `cargo lab atlas` writes from the present budgets.
+#[test]
+fn the_atlas_is_that_of_the_pages_and_budgets() {
+    let atlas = Atlas::read(&root()).unwrap();
+    assert_eq!(atlas.subjects.len(), 7);
+    let text = |page: &str| std::fs::read_to_string(root().join(page)).unwrap();
+    let page = text("doc/makers/atlas.md");
+    for subject in &atlas.subjects {
+        for point in &subject.points {
+            let Some(source) = &point.page else { continue };
+            let has = |line: &str| point.row.iter().all(|words| line.contains(words));
+            assert!(!point.row.is_empty() && text(source).lines().any(has), "{source}: {:?}", point.row);
+        }
+        let table = atlas.table(subject).markdown();
+        assert!(
+            page.contains(&table),
+            "{} is not as on the page: cargo lab atlas --markdown ...\n{table}",
+            subject.name
+        );
+    }
+    assert_eq!(text("doc/atlas.svg"), atlas.picture());
+}
+
+/// The cycles of an instruction are those of the four intervals on the page of the worst case over their bounds.
+#[test]
+fn the_cycles_of_the_atlas_are_those_of_the_worst_case() {
+    let rows = rows("doc/makers/worst-case.md", "Cycles");
+    for (column, (core, _, _, cycles)) in [(1, CORES[0]), (3, CORES[1])] {
+        let number = if core == "m4f" { "f32" } else { "fixed" };
+        let mut found = [f64::INFINITY, 0.0];
+        for (words, observer) in [("semi-implicit", "reduced"), ("exact", "exact")] {
+            let row = rows.iter().find(|row| row[0] == format!("hoist, image, {words}")).unwrap();
+            let bound = longest(&format!("hoist/{number}/{observer}/10000"), core) as f64;
+            let each: Vec<f64> = numbers(&row[column]).into_iter().map(|cycles| cycles as f64 / bound).collect();
+            found = [found[0].min(each[0]), found[1].max(each[1])];
+        }
+        let off = cycles.unwrap().into_iter().zip(found).map(|(noted, found)| (noted - found).abs());
+        assert!(off.fold(0.0, f64::max) < 0.01, "{core}: {found:?}");
+    }
+}
+
+/// `design --rates` counts by the images of two masses and of one with a governor.
+#[test]
+fn the_instructions_of_the_rates_are_those_of_the_images() {
+    for (observer, counts) in INSTRUCTIONS {
+        let part = if observer == "exact" { "two-mass" } else { observer };
+        let of = |number: &str, core: &str| longest(&format!("composition/{number}/{part}-governed/10000"), core);
+        assert_eq!(counts.map(u64::from), [of("f32", "m4f"), of("fixed", "m3")], "{observer}");
     }
 }

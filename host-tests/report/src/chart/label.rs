@@ -14,11 +14,6 @@ impl Labels {
         self.taken.push([x - 6.0, y - 6.0, x + 6.0, y + 6.0]);
     }
 
-    /// Marks the box of a level line as taken.
-    pub fn whisker(&mut self, from: f64, to: f64, y: f64) {
-        self.taken.push([from, y - 1.0, to, y + 1.0]);
-    }
-
     /// A free place beside a point for a text of this size, within the frame; `None` where there is none.
     pub fn place(&mut self, text: &str, size: f64, at: (f64, f64), frame: [f64; 4]) -> Option<(f64, f64, Anchor)> {
         let (x, y) = at;
