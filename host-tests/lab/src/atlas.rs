@@ -197,11 +197,11 @@ impl Atlas {
                 table.row(row);
                 continue;
             }
-            for core in 0..CORES.len() {
+            for (core, (_, _, _, cycles)) in CORES.iter().enumerate() {
                 row.push(point.instructions[core].map_or_else(String::new, |count| grouped(count as i64)));
                 row.push(point.time(core).map_or_else(String::new, |[least, most]| {
                     let [least, most] = [least, most].map(|time| significant(1e6 * time));
-                    if CORES[core].3.is_some() { format!("{least} to {most}") } else { format!("{least} and more") }
+                    if cycles.is_some() { format!("{least} to {most}") } else { format!("{least} and more") }
                 }));
             }
             row.push(point.bytes.map_or_else(String::new, |bytes| grouped(bytes as i64)));

@@ -137,7 +137,7 @@ fn burst(missed: u32) -> Result<Found, String> {
     let mut after = off(&drive, &plant);
     for _ in 0..200 {
         plant.advance(PERIOD);
-        faults = faults | drive.tick(&config, &sample(&plant)).faults;
+        faults |= drive.tick(&config, &sample(&plant)).faults;
         after = after.max(off(&drive, &plant));
     }
     if faults.intersects(Faults::ANGLE_MISSING | Faults::ANGLE_LOST | Faults::ANGLE_JUMP) {
@@ -159,7 +159,7 @@ fn torque_sensor(peak: f64) -> Result<Found, String> {
     for tick in 0..5000 {
         plant.advance(PERIOD);
         let sample = Sample { angle: seen(&plant), torque: (peak * range).min(range), setpoint: 0.0 };
-        faults = faults | drive.tick(&config, &sample).faults;
+        faults |= drive.tick(&config, &sample).faults;
         if tick > 3000 {
             squares += ((drive.estimate(&config).shaft_torque - plant.force(0)) / largest).powi(2);
         }
