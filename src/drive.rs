@@ -243,6 +243,9 @@ where
     #[inline(always)]
     fn observe(&mut self, config: &ConfigOf<Self>, sample: &Sample<N>, has_angle: bool) -> (Faults, N) {
         let limits = &config.limits;
+        if self.governor.is_to_judge() {
+            self.judge(config);
+        }
         let (mut torque, mut faults) = (sample.torque, Faults::NONE);
         if torque.exceeds(limits.torque) {
             torque = self.commanded;
@@ -280,6 +283,14 @@ where
             }
         }
         (faults | Faults::range(self.observer.beyond_base()), torque)
+    }
+
+    // Out of line at the start of a tick, where the fewest values wait for it.
+    #[cold]
+    #[inline(never)]
+    fn judge(&mut self, config: &ConfigOf<Self>) {
+        let estimate = self.estimate(config);
+        self.governor.judge(&config.governor, &estimate);
     }
 
     #[inline(always)]

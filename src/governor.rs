@@ -54,6 +54,7 @@ pub use soft_starter::{SoftStarter, SoftStarterConfig};
 pub use speed_filter::{CycleAverage, MovingAverage, MovingAverageConfig, SpeedFilter};
 pub use speed_governor::{Gains, SpeedGovernor, SpeedGovernorConfig};
 pub use speed_loop::{SpeedLoop, SpeedLoopConfig};
+pub(crate) use supervision::TURN;
 pub use supervision::{Supervised, SupervisedConfig, SupervisionConfig};
 pub use transport_delay::{TransportDelay, TransportDelayConfig};
 
@@ -72,6 +73,15 @@ pub trait Governor<N: Number>: Default {
 
     /// Whether it commands the torque. Where it does not, something else does.
     const COMMANDS: bool;
+
+    /// Whether the last tick is to be [judged](Self::judge): at the start of a tick.
+    #[inline(always)]
+    fn is_to_judge(&self) -> bool {
+        false
+    }
+
+    /// Judges the last tick by its estimate.
+    fn judge(&mut self, _config: &Self::Config, _estimate: &Estimate<N>) {}
 
     /// Sets a plausible setpoint; it is held until the next.
     fn set_setpoint(&mut self, setpoint: N);

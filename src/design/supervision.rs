@@ -18,8 +18,10 @@ const LONGEST: u32 = 30_000;
 pub struct Supervision {
     /// Largest innovation, either way (rad).
     pub innovation: f64,
-    /// Largest change of the load torque against its average over [`Supervision::RECENT`] (N m).
+    /// Largest change of the load torque against its average over [`recent`](Self::recent) (N m).
     pub change: f64,
+    /// Time over which the load torque is averaged (s).
+    pub recent: f64,
     /// Least and largest load torque (N m).
     pub load_torque: [f64; 2],
     /// Largest torque of the shaft, either way (N m).
@@ -145,8 +147,11 @@ impl Supervision {
     /// Share of the limits that is added to them.
     const MARGIN: f64 = 0.25;
 
-    /// Time over which the load torque is averaged (s).
-    pub const RECENT: f64 = 0.05;
+    /// Least time over which the load torque is averaged (s).
+    const RECENT: f64 = 0.05;
+
+    /// Ticks over which a figure is averaged at least.
+    const TICKS: f64 = 64.0;
 
     /// Duration beyond a limit (s).
     const LASTING: f64 = 0.02;
@@ -182,16 +187,19 @@ impl Supervision {
         let constant = tolerance.torque.max - 1.0;
         let unknown = constant * limit + (tolerance.offset + 0.05) * rated;
         let within = response.motor * unknown + response.load;
-        let recent = if load.rise > Self::RECENT { Self::RECENT / load.rise } else { 1.0 };
+        let least = Self::TICKS * period;
+        let recent = if least > Self::RECENT { least } else { Self::RECENT };
+        let part = if load.rise > recent { recent / load.rise } else { 1.0 };
         let most = limit * (1.0 + constant) * 1.05;
         Self {
             innovation: (1.0 + Self::MARGIN) * within + 0.15 * count + encoder.amplitudes[0],
-            change: (1.0 + Self::MARGIN) * (unknown + load.torque * recent),
+            change: (1.0 + Self::MARGIN) * (unknown + load.torque * part),
+            recent,
             load_torque: [-most, most],
             shaft_torque: 2.0 * limit,
             speed: 1.25 * rating.speed.0,
             report: 0.012 * limit,
-            average: if 64.0 * period > 0.01 { 64.0 * period } else { 0.01 },
+            average: if least > 0.01 { least } else { 0.01 },
             slip: 0.01 * core::f64::consts::TAU,
             breakaway: 0.15 * rated,
             still: 0.25 * ramp * Self::LASTING,

@@ -156,6 +156,15 @@ impl<N: Number, G: Governor<N>, const SLOTS: usize, const PARTS: usize> Governor
     }
 
     #[inline(always)]
+    fn is_to_judge(&self) -> bool {
+        self.governor.is_to_judge()
+    }
+
+    fn judge(&mut self, config: &Self::Config, estimate: &Estimate<N>) {
+        self.governor.judge(&config.governor, estimate);
+    }
+
+    #[inline(always)]
     fn set_turn_in_hold(&mut self, config: &Self::Config, turned: N) {
         self.governor.set_turn_in_hold(&config.governor, turned);
     }

@@ -1,7 +1,8 @@
 //! Supervision of a drive: a stop where the machine does not follow its commands.
 //!
-//! In every tick the innovation is compared with its limit, and one of shaft torque, load torque, speed and torque
-//! report in turn. A count of ticks beyond a limit, less those within, stops the machine and raises the cause.
+//! A tick compares one figure with its limit: every other tick the innovation, the ticks between one of the others in
+//! turn, so that 16 ticks compare all. Beyond a limit every tick is judged by all of them, at the start of the next. A
+//! count of ticks beyond a limit, less those within, stops the machine and raises the cause.
 //!
 //! | cause | limit | stop |
 //! |---|---|---|
@@ -30,6 +31,9 @@ use crate::fault::Faults;
 use crate::number::Number;
 use crate::sample::Estimate;
 
+/// Ticks within which every figure is compared with its limit.
+pub(crate) const TURN: i32 = 16;
+
 /// Limits of [`Supervised`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -38,7 +42,7 @@ pub struct SupervisionConfig<N: Number> {
     pub innovation: N,
     /// Largest load torque less its recent average, either way (N m).
     pub change: N,
-    /// Share of a difference that the recent average covers in four ticks.
+    /// Share of a difference that the recent average covers in 16 ticks.
     pub recent: N::Coefficient,
     /// Middle of the permitted load torques (N m).
     pub load_torque_middle: N,
@@ -50,7 +54,7 @@ pub struct SupervisionConfig<N: Number> {
     pub speed: N,
     /// Largest average of reported less commanded torque, either way (N m).
     pub report: N,
-    /// Share of a difference that the average covers in four ticks.
+    /// Share of a difference that the average covers in 16 ticks.
     pub share: N::Coefficient,
     /// Largest turn behind a closed brake (2^-32 turn).
     pub slip: N,
@@ -98,19 +102,24 @@ enum Stop {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Supervised<G, N = f32> {
     governor: G,
+    /// Innovation and reported torque of the tick that has ended.
     innovation: N,
-    /// Reported torque of the tick that has ended, and the torque commanded for it.
     reported: N,
+    /// Torque that was commanded for the tick with which a report is compared, and while every tick is judged for the
+    /// one that follows.
     commanded: N,
+    following: N,
     /// Average of reported less commanded torque.
     difference: N,
     /// Recent average of the load torque.
     recent: N,
-    tick: u32,
+    /// Counts down the ticks; its remainder by [`TURN`] is the figure that a tick compares. Below 1 every tick is judged:
+    /// a limit is exceeded, a count or a stop is under way, or the motor has not turned since the governor started.
+    turn: i32,
+    /// The same while every tick is judged.
+    meanwhile: i32,
     /// The cause with [`Faults::STOPPED`], and a brake that slips.
     raised: Faults,
-    /// Whether the motor has turned since the governor started, and neither a count nor a stop is under way.
-    calm: bool,
     /// Whether the motor has turned since the governor started.
     turned: bool,
     stop: Stop,
@@ -148,7 +157,7 @@ impl<G, N: Number> Supervised<G, N> {
     pub fn stop(&mut self, cause: Faults) {
         if self.cause().is_none() {
             self.raised |= cause & CAUSES;
-            self.calm = false;
+            self.turn = 0;
         }
     }
 
@@ -160,52 +169,64 @@ impl<G, N: Number> Supervised<G, N> {
         (self.difference, self.slipped) = (N::ZERO, None);
     }
 
-    /// Advances the average of the report: every fourth tick.
+    /// Advances the average of the report: once a turn.
     #[inline(always)]
-    fn differs(&mut self, limits: &SupervisionConfig<N>) -> bool {
+    fn average_report(&mut self, limits: &SupervisionConfig<N>) {
         let step = self.reported - self.commanded - self.difference;
         self.difference = self.difference + step.times(limits.share);
-        self.difference.exceeds(limits.report)
     }
 
-    /// Advances the recent average of the load torque: every fourth tick.
+    /// Advances the recent average of the load torque: once a turn.
     #[inline(always)]
-    fn changes(&mut self, limits: &SupervisionConfig<N>, load_torque: N) -> bool {
-        let change = load_torque - self.recent;
-        self.recent = self.recent + change.times(limits.recent);
-        change.exceeds(limits.change)
+    fn average_load(&mut self, limits: &SupervisionConfig<N>, load_torque: N) {
+        self.recent = self.recent + (load_torque - self.recent).times(limits.recent);
     }
 }
+
+/// Ticks to the end of a turn in which the averages advance; the torque is kept in the one before the latter.
+const AVERAGE_LOAD: i32 = 11;
+const AVERAGE_REPORT: i32 = 2;
 
 const CAUSES: Faults = Faults::from_bits(Faults::SUPERVISION.bits() & !Faults::BRAKE_SLIP.bits());
 
 impl<N: Number, G: Governor<N>> Supervised<G, N> {
-    /// A tick with a limit exceeded, a count or a stop under way, or before the motor has turned.
-    // The estimate in registers: by reference the tick would store it.
-    #[cold]
-    #[inline(never)]
-    fn supervise(
-        &mut self,
-        config: &SupervisedConfig<N, G::Config>,
-        wanted: N,
-        motor_speed: N,
-        shaft_torque: N,
-        load_speed: N,
-        load_torque: N,
-    ) -> N {
-        let estimate = &Estimate { motor_speed, shaft_torque, load_speed, load_torque };
-        let limits = &config.supervision;
-        if self.cause().is_none() {
-            self.count(limits, estimate);
-            if self.cause().is_none() {
-                return wanted;
+    /// Judges the last tick: a limit exceeded, a count or a stop under way, or before the motor has turned.
+    fn judge_tick(&mut self, limits: &SupervisionConfig<N>, estimate: &Estimate<N>) {
+        self.meanwhile = self.meanwhile.wrapping_sub(1);
+        match self.meanwhile & (TURN - 1) {
+            AVERAGE_LOAD => self.average_load(limits, estimate.load_torque),
+            AVERAGE_REPORT => self.average_report(limits),
+            _ => {}
+        }
+        self.commanded = self.following;
+        if self.cause().is_none() && self.count(limits, estimate) {
+            self.turn = i32::MAX - (TURN - 1) + (self.meanwhile & (TURN - 1));
+        }
+        if !self.cause().is_none() {
+            if self.stop == Stop::None {
+                self.begin(limits, estimate);
             }
+            self.stopping(limits, estimate);
         }
-        if self.stop == Stop::None {
-            self.begin(limits, estimate);
+    }
+
+    /// The torque of a tick that is judged: the governor's, or the stop's.
+    #[inline(always)]
+    fn judged(&mut self, config: &SupervisedConfig<N, G::Config>, wanted: N, estimate: &Estimate<N>) -> N {
+        let torque = match self.stop {
+            Stop::None => wanted,
+            Stop::Released => N::ZERO,
+            Stop::Torque => {
+                let most = config.supervision.stop_torque;
+                let torque = if self.forwards { -most } else { most };
+                self.governor.permitted(&config.governor, estimate, torque)
+            }
+        };
+        if self.turn >= 0 {
+            self.meanwhile = self.turn;
         }
-        let torque = self.stopping(limits, estimate);
-        self.governor.permitted(&config.governor, estimate, torque)
+        (self.following, self.turn) = (torque, 0);
+        torque
     }
 }
 
@@ -236,6 +257,16 @@ impl<N: Number, G: Governor<N>> Governor<N> for Supervised<G, N> {
         self.innovation = innovation;
     }
 
+    #[inline(always)]
+    fn is_to_judge(&self) -> bool {
+        self.turn == 0 || self.governor.is_to_judge()
+    }
+
+    fn judge(&mut self, config: &Self::Config, estimate: &Estimate<N>) {
+        self.governor.judge(&config.governor, estimate);
+        self.judge_tick(&config.supervision, estimate);
+    }
+
     fn set_turn_in_hold(&mut self, config: &Self::Config, turned: N) {
         let slipped = self.slipped.map_or(N::ZERO, |slipped| slipped + turned);
         self.slipped = Some(slipped);
@@ -252,23 +283,32 @@ impl<N: Number, G: Governor<N>> Governor<N> for Supervised<G, N> {
     #[inline(always)]
     fn command(&mut self, config: &Self::Config, estimate: &Estimate<N>) -> N {
         let limits = &config.supervision;
-        let mut torque = self.governor.command(&config.governor, estimate);
-        self.tick = self.tick.wrapping_add(1);
-        let beyond = match self.tick & 3 {
-            0 => {
-                estimate.shaft_torque.exceeds(limits.shaft_torque)
-                    || (estimate.load_torque - limits.load_torque_middle).exceeds(limits.load_torque_half)
-            }
-            1 => self.changes(limits, estimate.load_torque),
-            2 => estimate.motor_speed.exceeds(limits.speed),
-            _ => self.differs(limits),
-        };
-        if beyond || !self.calm || self.innovation.exceeds(limits.innovation) {
-            let Estimate { motor_speed, shaft_torque, load_speed, load_torque } = *estimate;
-            torque = self.supervise(config, torque, motor_speed, shaft_torque, load_speed, load_torque);
-        }
-        self.commanded = torque;
-        torque
+        let torque = self.governor.command(&config.governor, estimate);
+        self.turn = self.turn.wrapping_sub(1);
+        let beyond = self.turn < 0
+            || match self.turn & (TURN - 1) {
+                15 => estimate.shaft_torque.exceeds(limits.shaft_torque),
+                13 => (estimate.load_torque - limits.load_torque_middle).exceeds(limits.load_torque_half),
+                AVERAGE_LOAD => {
+                    self.average_load(limits, estimate.load_torque);
+                    false
+                }
+                9 => (estimate.load_torque - self.recent).exceeds(limits.change),
+                7 => estimate.motor_speed.exceeds(limits.speed),
+                5 => estimate.load_speed.exceeds(limits.speed),
+                3 => {
+                    self.commanded = torque;
+                    false
+                }
+                AVERAGE_REPORT => {
+                    self.average_report(limits);
+                    false
+                }
+                1 => self.difference.exceeds(limits.report),
+                0 | 4 | 6 | 8 | 10 | 12 | 14 => self.innovation.exceeds(limits.innovation),
+                _ => false,
+            };
+        if beyond { self.judged(config, torque, estimate) } else { torque }
     }
 
     fn switch(&mut self, from: &Self::Config, to: &Self::Config, estimate: &Estimate<N>) {
@@ -284,13 +324,14 @@ impl<N: Number, G: Governor<N>> Governor<N> for Supervised<G, N> {
 
     fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) {
         self.governor.start(&config.governor, estimate, torque);
-        (self.commanded, self.started, self.difference) = (torque, torque, N::ZERO);
+        (self.commanded, self.following, self.started) = (torque, torque, torque);
+        self.difference = N::ZERO;
         self.recent = estimate.load_torque;
-        (self.turned, self.calm) = (false, false);
+        (self.turned, self.turn) = (false, 0);
     }
 
     fn angle_lost(&mut self, config: &Self::Config, estimate: &Estimate<N>) {
         self.governor.angle_lost(&config.governor, estimate);
-        self.commanded = N::ZERO;
+        (self.commanded, self.following) = (N::ZERO, N::ZERO);
     }
 }

@@ -6,7 +6,7 @@ use super::format::ANGLE_PER_RADIAN;
 use super::governor_parts::ticks;
 use super::{Bases, Error};
 use crate::design::Supervision;
-use crate::governor::SupervisionConfig;
+use crate::governor::{SupervisionConfig, TURN};
 use crate::math::exp_m1;
 
 const TORQUE: &str = "the torques of the supervision must be positive and finite, and at most twice the base of the \
@@ -30,13 +30,13 @@ constants! {
         Ok(SupervisionConfig {
             innovation: get!(To::angle(get!(positive(limits.innovation * ANGLE_PER_RADIAN, ANGLE)), ANGLE)),
             change: get!(To::positive(limits.change / torque, TORQUE)),
-            recent: get!(To::coefficient(-exp_m1(-4.0 * period / Supervision::RECENT), AVERAGE)),
+            recent: get!(To::coefficient(-exp_m1(-(TURN as f64) * period / limits.recent), AVERAGE)),
             load_torque_middle: get!(To::number(0.5 * (least + most) / torque, TORQUE)),
             load_torque_half: get!(To::positive(0.5 * (most - least) / torque, TORQUE)),
             shaft_torque: get!(To::positive(limits.shaft_torque / torque, TORQUE)),
             speed: get!(To::positive(limits.speed / speed, SPEED)),
             report: get!(To::positive(limits.report / torque, TORQUE)),
-            share: get!(To::coefficient(-exp_m1(-4.0 * period / limits.average), AVERAGE)),
+            share: get!(To::coefficient(-exp_m1(-(TURN as f64) * period / limits.average), AVERAGE)),
             slip: get!(To::angle(get!(positive(limits.slip * ANGLE_PER_RADIAN, ANGLE)), ANGLE)),
             breakaway: get!(To::positive(limits.breakaway / torque, TORQUE)),
             still: get!(To::positive(limits.still / speed, SPEED)),

@@ -27,12 +27,14 @@ const FAULTS: [Fault; 14] = [
     Fault::Phase,
 ];
 
-/// The flag that belongs to the fault has to come within 0.2 s, but for the `hidden` faults, and no other one alone.
-fn survey<M: Tested>(draws: u32, hidden: &[Fault])
+/// The flag that belongs to the fault has to come within 0.2 s, but for the `hidden` faults, and no other one alone:
+/// how many faults it does not.
+fn survey<M: Tested>(draws: u32, hidden: &[Fault]) -> usize
 where
     Watched: Configure<M, f32, Config = ConfigOf<Watched>>,
 {
     let config = Watched::configure::<M>();
+    let mut missed = 0;
     for fault in FAULTS {
         if fault == Fault::Land && !M::DUTY.rope {
             continue;
@@ -65,26 +67,26 @@ where
             format!("{fault:?}"),
             1e3 * latest
         );
-        if !hidden.contains(&fault) {
-            assert_eq!((named, wrong), (draws, 0), "{} {fault:?}", M::DUTY.name);
-        }
+        missed += usize::from(!hidden.contains(&fault) && (named, wrong) != (draws, 0));
     }
+    missed
 }
 
 #[test]
 fn faults_are_found_and_named() {
     let draws = std::env::var("DRAWS").map_or(1, |draws| draws.parse().unwrap());
-    survey::<Hoist>(draws, &[]);
-    // with little torque, at the start of a slow ramp, there is nothing to see
-    survey::<Crane>(draws, &[Fault::Late, Fault::Ratio(-1.0), Fault::Brake]);
-    // the first is named after 0.25 s; pulses of 15 Hz look like the load's
-    survey::<Mill>(draws, &[Fault::Ratio(-1.0), Fault::Phase]);
-    // as the tool's work begins and ends
-    survey::<Spindle>(draws, &[Fault::Break, Fault::Slip, Fault::Half, Fault::Drag, Fault::Phase]);
-    // as loads are switched on and off
-    survey::<Set>(draws, &[Fault::Break, Fault::Slip, Fault::Half, Fault::Drag, Fault::Phase]);
-    // a machine on no list
-    survey::<Winder>(draws, &[]);
+    let missed = survey::<Hoist>(draws, &[])
+        // with little torque, at the start of a slow ramp, there is nothing to see
+        + survey::<Crane>(draws, &[Fault::Late, Fault::Ratio(-1.0), Fault::Brake])
+        // the first is named after 0.25 s; pulses of 15 Hz look like the load's
+        + survey::<Mill>(draws, &[Fault::Ratio(-1.0), Fault::Phase])
+        // as the tool's work begins and ends
+        + survey::<Spindle>(draws, &[Fault::Break, Fault::Slip, Fault::Half, Fault::Drag, Fault::Phase])
+        // as loads are switched on and off
+        + survey::<Set>(draws, &[Fault::Break, Fault::Slip, Fault::Half, Fault::Drag, Fault::Phase])
+        // a machine on no list
+        + survey::<Winder>(draws, &[]);
+    assert_eq!(missed, 0, "the table is printed by --nocapture");
 }
 
 /// A stop from elsewhere: no torque at the end, the cause until it is reset.
@@ -106,4 +108,16 @@ fn a_told_cause_stands_until_it_is_reset() {
     drive.governor_mut().reset();
     assert_eq!(drive.hold(&config, 0, 100.0).torque, 100.0);
     assert!(drive.tick(&config, &sample).faults.is_none());
+}
+
+/// A limit that is overridden holds, and names its cause: half of the speed and of the torque of the work.
+#[test]
+fn a_limit_that_is_overridden_names_its_cause() {
+    let configured = Watched::configure::<Hoist>();
+    let (mut slow, mut weak) = (configured, configured);
+    slow.governor.supervision.speed = 0.5 * 155.0;
+    weak.governor.supervision.shaft_torque = 0.5 * 747.0;
+    for (config, cause) in [(configured, Faults::NONE), (slow, Faults::OVERSPEED), (weak, Faults::SHAFT_OVERLOAD)] {
+        assert_eq!(run::<Hoist>(&config, &Drawn::NOMINAL, Fault::None, None, 0.0).first, cause);
+    }
 }

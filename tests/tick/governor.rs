@@ -300,7 +300,7 @@ fn a_shaper_hands_on_the_steady_speed_and_a_trip() {
 
 /// A governor that notes what it is told, and has a fault.
 #[derive(Default)]
-struct Listener([f64; 3]);
+struct Listener([f64; 4]);
 
 impl Governor<f64> for Listener {
     type Config = ();
@@ -315,6 +315,14 @@ impl Governor<f64> for Listener {
 
     fn set_turn_in_hold(&mut self, (): &(), turned: f64) {
         self.0[2] = turned;
+    }
+
+    fn is_to_judge(&self) -> bool {
+        self.0[3] == 0.0
+    }
+
+    fn judge(&mut self, (): &(), estimate: &Estimate<f64>) {
+        self.0[3] = estimate.motor_speed;
     }
 
     fn faults(&self) -> Faults {
@@ -339,7 +347,10 @@ fn a_shaper_hands_on_what_a_supervision_hears_and_says() {
     let mut shaper = InputShaper::<Listener, 2, 3, f64>::default();
     shaper.set_response(&config, 5.0, 6.0);
     shaper.set_turn_in_hold(&config, 7.0);
-    assert_eq!((shaper.governor().0, shaper.faults()), ([5.0, 6.0, 7.0], Faults::OVERSPEED));
+    assert!(shaper.is_to_judge());
+    shaper.judge(&config, &at(8.0));
+    assert!(!shaper.is_to_judge());
+    assert_eq!((shaper.governor().0, shaper.faults()), ([5.0, 6.0, 7.0, 8.0], Faults::OVERSPEED));
 }
 
 #[test]

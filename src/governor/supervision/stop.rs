@@ -16,8 +16,8 @@ impl<G, N: Number> Supervised<G, N> {
             && !estimate.motor_speed.exceeds(limits.still)
     }
 
-    /// Counts a tick; begins a stop where a count is full.
-    pub(super) fn count(&mut self, limits: &SupervisionConfig<N>, estimate: &Estimate<N>) {
+    /// Counts a tick; raises the cause where a count is full. Whether the motor has turned, and no count is under way.
+    pub(super) fn count(&mut self, limits: &SupervisionConfig<N>, estimate: &Estimate<N>) -> bool {
         // at rest the gear may hold the motor
         let turns = estimate.motor_speed.exceeds(limits.standstill);
         self.turned |= turns;
@@ -46,7 +46,7 @@ impl<G, N: Number> Supervised<G, N> {
         } else if self.outside > limits.lasting {
             self.raised |= cause;
         }
-        self.calm = self.turned && self.sudden | self.outside == 0 && self.cause().is_none();
+        self.turned && self.sudden | self.outside == 0 && self.cause().is_none()
     }
 
     /// Begins the stop of the cause.
@@ -79,8 +79,8 @@ impl<G, N: Number> Supervised<G, N> {
         }
     }
 
-    /// The torque of a stop, before its limit.
-    pub(super) fn stopping(&mut self, limits: &SupervisionConfig<N>, estimate: &Estimate<N>) -> N {
+    /// Goes on with a stop, until the machine stands.
+    pub(super) fn stopping(&mut self, limits: &SupervisionConfig<N>, estimate: &Estimate<N>) {
         self.elapsed = self.elapsed.saturating_add(1);
         if self.cause() == OPPOSED && self.stop == Stop::Torque {
             // a stop that the machine does not follow shows an innovation against its torque
@@ -104,13 +104,8 @@ impl<G, N: Number> Supervised<G, N> {
             }
             self.stop = Stop::Released;
         }
-        match self.stop {
-            Stop::Torque if self.forwards => -limits.stop_torque,
-            Stop::Torque => limits.stop_torque,
-            Stop::None | Stop::Released => {
-                self.raised |= Faults::STOPPED;
-                N::ZERO
-            }
+        if self.stop == Stop::Released {
+            self.raised |= Faults::STOPPED;
         }
     }
 
