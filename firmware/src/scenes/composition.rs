@@ -1,9 +1,9 @@
-//! The hoist's drive with parts left out, to measure the cost of each: an observer alone, with a governor, with a
-//! measurement of the fluctuation.
+//! The hoist's drive with parts left out, to measure the cost of each: an observer alone, with a governor, under
+//! supervision, with a measurement of the fluctuation.
 
 use driveline::drive::{ConfigOf, Drive};
 use driveline::fluctuation::{Extremes, Waveform};
-use driveline::governor::SpeedLoop;
+use driveline::governor::{SpeedLoop, Supervised};
 use driveline::observer::{GearedObserver, RigidObserver, SemiImplicitObserver, TwoMassObserver};
 
 use super::hoist::Hoist;
@@ -41,6 +41,8 @@ pub type SemiImplicitGoverned<N> = Parts<N, SemiImplicitObserver, SpeedLoop>;
 pub type TwoMass<N> = Parts<N, TwoMassObserver>;
 /// Two masses, exact step, governed.
 pub type TwoMassGoverned<N> = Parts<N, TwoMassObserver, SpeedLoop>;
+/// Two masses, exact step, governed under supervision.
+pub type TwoMassSupervised<N> = Parts<N, TwoMassObserver, Supervised<SpeedLoop>>;
 /// Two masses behind a gear, observed.
 pub type Geared<N> = Parts<N, GearedObserver<TwoMassObserver>>;
 /// Two masses behind a gear, governed.
@@ -57,6 +59,7 @@ variants! {
     "semi-implicit-governed": SemiImplicitGoverned for Hoist<10_000>;
     "two-mass-observer": TwoMass for Hoist<10_000>;
     "two-mass-governed": TwoMassGoverned for Hoist<10_000>;
+    "two-mass-supervised": TwoMassSupervised for Hoist<10_000>;
     "two-mass-geared-observer": Geared for Hoist<10_000>;
     "two-mass-geared-governed": GearedGoverned for Hoist<10_000>;
     "two-mass-extremes": TwoMassExtremes for Hoist<10_000>;
