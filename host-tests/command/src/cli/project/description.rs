@@ -73,6 +73,8 @@ pub struct Project {
     /// Fields of the tolerance that are not the usual ones, in the words of Rust.
     tolerance: Vec<String>,
     designs: String,
+    /// Whether its observer has one mass.
+    rigid: bool,
     /// Calls that put the dampers on a train; empty where there are none.
     dampers: String,
     number: &'static str,
@@ -172,6 +174,7 @@ impl Project {
         let gears = damped.drive_gears(&two, matches!(number, Number::Fixed)).map(|_| ());
         let plan = Plan::of(&damped);
         let observers = plan.as_ref().map_or_else(|_| Vec::new(), |plan| observers(machine, plan));
+        let rigid = observers.last() == Some(&"RigidObserver");
         let mut words = words(machine);
         words.extend(["Speed", "Torque"]);
         let dampers = dampers(&machine.rings(), &mut words).replace('\n', "\n    ");
@@ -218,7 +221,8 @@ impl Project {
             within: float(machine.disturbance.within),
             tuning: has_tuning(machine).then(|| tuning(machine, "&Self::TWO_MASS")),
             actuator: (actuator != Actuator::DIRECT).then(|| [actuator.delay, actuator.lag].map(float)),
-            designs: designs(machine, &tolerance).join(", "),
+            designs: designs(machine, &tolerance, rigid).join(", "),
+            rigid,
             dampers,
             tolerance,
             number: match number {
@@ -291,7 +295,7 @@ impl Project {
 }
 
 /// What the machine's file takes from `driveline::design`.
-fn designs(machine: &MachineFile, tolerance: &[String]) -> Vec<&'static str> {
+fn designs(machine: &MachineFile, tolerance: &[String], rigid: bool) -> Vec<&'static str> {
     let has = |word: &'static str, is: bool| is.then_some(word);
     [
         has("Actuator", machine.actuator() != Actuator::DIRECT),
@@ -300,6 +304,7 @@ fn designs(machine: &MachineFile, tolerance: &[String]) -> Vec<&'static str> {
         has("RigidDesign", !machine.dampers.is_empty()),
         has("SpeedLoopTuning", has_tuning(machine)),
         has("Spread", tolerance.iter().any(|field| field.contains("Spread"))),
+        has("Supervision", rigid),
         has("Tolerance", !tolerance.is_empty()),
     ]
     .into_iter()
