@@ -50,8 +50,9 @@ where
                 named += 1;
                 pairs += u32::from(alone.last != fault.cause());
                 latest = latest.max(alone.after);
-            } else if !alone.last.is_none() {
-                wrong += u32::from(!alone.last.contains(fault.cause()));
+            } else {
+                wrong += u32::from(!alone.last.is_none() && !alone.last.contains(fault.cause()));
+                println!("{fault:?} {alone:?} {drawn:?}");
             }
             // a tenth of the rating is the least that counts
             let over = |alone: f64, told: f64, rated: f64| alone.max(0.1 * rated) / told.max(0.1 * rated);

@@ -1,4 +1,4 @@
-//! Machines that work: no stop without a fault, within the tolerances and in every second one with what no tolerance
+//! Machines that work: no stop without a fault while their shafts are not overloaded, within the tolerances and in every second one with what no tolerance
 //! names. `TICKS=2000000` in the environment runs so many ticks of each.
 
 use driveline::configure::Configure;
@@ -37,13 +37,15 @@ impl Outside {
     }
 }
 
-/// Ticks of a drawn machine at random setpoints, its load changing by steps that belong to its work; the first cause.
-fn work<M: Tested>(config: &ConfigOf<Watched>, drawn: &Drawn, outside: &Outside, ticks: u32) -> (Faults, u32) {
+/// Ticks of a drawn machine at random setpoints, its load changing by steps that belong to its work; the first cause, and the
+/// largest torque of the weak shaft until then over the torque limit.
+fn work<M: Tested>(config: &ConfigOf<Watched>, drawn: &Drawn, outside: &Outside, ticks: u32) -> (Faults, u32, f64) {
     let duty = M::DUTY;
     let (mut plant, mut draws) = (M::plant(), drawn.draws);
     drawn.apply(&mut plant);
     plant.shafts.iter_mut().for_each(|[_, damping]| *damping *= outside.damping);
     let (mut count, mut torque) = (TickCount::default(), 0.0);
+    let mut largest = 0.0_f64;
     let period = 1.0 / f64::from(M::RATE_HZ);
     let resolution = M::ENCODER.resolution().unwrap();
     let rated = M::RATING.torque.0;
@@ -84,15 +86,16 @@ fn work<M: Tested>(config: &ConfigOf<Watched>, drawn: &Drawn, outside: &Outside,
             };
             let causes = command.faults & Faults::SUPERVISION;
             if !causes.is_none() {
-                return (causes, tick);
+                return (causes, tick, largest / M::RATING.torque_limit.0);
             }
             torque = f64::from(command.torque);
         }
         reported = torque + drawn.noise * rated * draws.normal();
         let cogging = outside.cogging * rated * (24.0 * plant.angle[0]).sin();
         plant.advance(torque * drawn.constant + drawn.offset * rated + cogging, period);
+        largest = largest.max(plant.torque(plant.weak).abs());
     }
-    (Faults::NONE, ticks)
+    (Faults::NONE, ticks, largest / M::RATING.torque_limit.0)
 }
 
 fn survey<M: Tested>(ticks: u32) -> u32
@@ -101,24 +104,22 @@ where
 {
     let config = Watched::configure::<M>();
     let mut random = Draws(11);
-    let (mut total, mut trips) = (0, 0);
+    let (mut total, mut trips, mut overloads) = (0, 0, 0);
     let each = 10 * M::RATE_HZ;
     let mut outside = Outside::NONE;
     while total < ticks {
         let drawn = Drawn::of::<M>(&mut random);
-        let (cause, ran) = work::<M>(&config, &drawn, &outside, each);
+        let (cause, ran, largest) = work::<M>(&config, &drawn, &outside, each);
         total += ran;
         if !cause.is_none() {
-            trips += 1;
-            println!(
-                "{}: {cause} at {:.3} s of {drawn:?} {outside:?}",
-                M::DUTY.name,
-                f64::from(ran) / f64::from(M::RATE_HZ)
-            );
+            // cogging in the resonance of a shaft with little damping overloads it: that stop is right
+            *if largest > 1.0 { &mut overloads } else { &mut trips } += 1;
+            let time = f64::from(ran) / f64::from(M::RATE_HZ);
+            println!("{}: {cause} at {time:.3} s, {largest:.2}, {drawn:?} {outside:?}", M::DUTY.name);
         }
         outside = if outside.damping == 1.0 { Outside::of(&mut random) } else { Outside::NONE };
     }
-    println!("{}: {trips} stops in {total} ticks", M::DUTY.name);
+    println!("{}: {trips} stops and {overloads} of an overloaded shaft in {total} ticks", M::DUTY.name);
     trips
 }
 
