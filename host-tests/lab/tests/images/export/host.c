@@ -27,6 +27,7 @@ static int wrong_calls(int filled)
         hoist_tick(&drive, &sample, &torque),       hoist_coast(&drive, 0, 0, &torque),
         hoist_hold(&drive, 0, 0, &torque),          hoist_make_up(&drive, 0, 1),
         hoist_engage(&drive),                       hoist_estimate(&drive, &estimates),
+        hoist_tick_after(&drive, &sample, 1, &torque),
     };
     for (size_t call = 0; call < sizeof refused / sizeof *refused; call++) {
         if (refused[call] != HOIST_REFUSED_NOT_INITIALISED) return 1;
@@ -56,9 +57,31 @@ static int wrong_calls(int filled)
     return 0;
 }
 
+/* Ticks that did not run, by their count: those of `TickCount`'s example, made up and flagged. */
+static int missed_ticks(void)
+{
+    static const uint16_t counts[] = { 65534, 65535, 0, 3, 3, 4 };
+    static const uint32_t expected[] = { 0, 0, 0, 2, 0, 0 };
+    uint16_t next = counts[0];
+    for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
+        if (hoist_missed(&next, counts[k]) != expected[k]) return 20;
+    }
+    hoist_drive one, other;
+    hoist_number torque, others;
+    const hoist_sample sample = { 1u << 20, 0, hoist_from_speed(50.0f) };
+    hoist_init(&one, 0);
+    other = one;
+    if (hoist_tick_after(&one, &sample, 2, &torque) != HOIST_FAULT_TICK_MISSED) return 21;
+    if (hoist_make_up(&other, 0, 2) != HOIST_FAULT_TICK_MISSED || hoist_tick(&other, &sample, &others) != 0) return 22;
+    if (memcmp(&one, &other, sizeof one) || torque != others || torque == 0) return 23;
+    /* of more than are made up the angle is taken over */
+    if (hoist_tick_after(&one, &sample, 40, &torque) != (HOIST_FAULT_TICK_MISSED | HOIST_FAULT_ANGLE_MISSING)) return 24;
+    return 0;
+}
+
 int main(void)
 {
-    int wrong = 0;
+    int wrong = missed_ticks();
     for (int filled = 0; filled < 256 && !wrong; filled++) wrong = wrong_calls(filled);
     if (wrong) {
         fprintf(stderr, "wrong call %d\n", wrong);
