@@ -3,5 +3,6 @@
 mod angle;
 mod cam;
 mod edges;
+mod law;
 mod other_teeth;
 mod recordings;
