@@ -4,7 +4,10 @@
 //! The machine is integrated here, by sub-steps of the two masses' own equations. A sample of the designs;
 //! `DESIGNS=500000` in the environment draws more, `FROM=90450` from this one on.
 
-use driveline::design::{Disturbance, Encoder, LoadFeedForward, Rate, SpeedLoopTuning};
+use driveline::design::{
+    Actuator, Disturbance, Encoder, GovernorDesign, LoadFeedForward, Rate, SpeedLoopDesign, SpeedLoopTuning,
+    TwoMassDesign,
+};
 use driveline::drive::{Composition, Config, ConfigOf, Drive, Limits};
 use driveline::fault::Faults;
 use driveline::governor::{
@@ -209,14 +212,36 @@ impl<N: Scale, D: Composition<Number = N>> Tried for Held<D> {
     }
 }
 
+/// Designs of a machine's parts, which hold for every number.
+struct Designs {
+    observer: TwoMassDesign,
+    /// Two to switch between.
+    speed_loops: [SpeedLoopDesign; 2],
+    /// For a slow actuator: two to switch between.
+    governors: Option<[GovernorDesign; 2]>,
+}
+
+impl Designs {
+    fn of(drawn: &Drawn) -> Option<Self> {
+        let (machine, rate) = (drawn.machine, Rate::every(drawn.period));
+        let softer = SpeedLoopTuning { bandwidth: 0.5 * drawn.tuning.bandwidth.min(1.0), ..drawn.tuning };
+        let actuator = Actuator { delay: 5.0 * drawn.period, lag: 10.0 * drawn.period };
+        let governor = |factor| machine.try_governor(rate, actuator, factor, LoadFeedForward::NONE).ok();
+        Some(Designs {
+            observer: machine.try_observer(rate, drawn.encoder, drawn.disturbance).ok()?,
+            speed_loops: [machine.try_speed_loop(rate, drawn.tuning).ok()?, machine.try_speed_loop(rate, softer).ok()?],
+            governors: governor(drawn.factor).zip(governor(2.0 * drawn.factor)).map(|(one, two)| [one, two]),
+        })
+    }
+}
+
 /// The drives of a design in each number, or none where one of them is refused.
 macro_rules! drives {
-    ($number:ident, $drawn:expr, $kind:expr) => {{
+    ($number:ident, $drawn:expr, $designs:expr, $kind:expr) => {{
         type N = $number;
         (|| -> Option<Box<dyn Tried>> {
-            let drawn: &Drawn = $drawn;
+            let (drawn, designs): (&Drawn, &Designs) = ($drawn, $designs);
             let bases = if <N as Number>::ONE.to_word() == 1 << 28 { drawn.bases } else { Bases::SI };
-            let rate = Rate::every(drawn.period);
             let screening = Screening {
                 torque: 1.67 * drawn.torque_limit.min(drawn.bases.torque),
                 setpoint: drawn.speed,
@@ -225,58 +250,47 @@ macro_rules! drives {
                 max_coast: 20,
             };
             let limits = Limits::<N>::try_new(&screening, bases).ok()?;
-            let design = drawn.machine.try_observer(rate, drawn.encoder, drawn.disturbance).ok()?;
-            let observer = TwoMassConfig::<N>::try_new(&design, bases).ok()?;
-            let speed_loop = drawn.machine.try_speed_loop(rate, drawn.tuning).ok()?;
-            let softer = SpeedLoopTuning { bandwidth: 0.5 * drawn.tuning.bandwidth.min(1.0), ..drawn.tuning };
-            let softer = drawn.machine.try_speed_loop(rate, softer).ok()?;
+            let observer = TwoMassConfig::<N>::try_new(&designs.observer, bases).ok()?;
             let limit = SymmetricLimitConfig::<N>::try_new(drawn.torque_limit, bases).ok()?;
             let slew = SlewConfig::<N, _>::try_new(drawn.slew, limit, drawn.period, bases).ok()?;
             let settings = SpeedLoopSettings { torque_limit: drawn.torque_limit, ramp: drawn.ramp };
-            let whole = |governor| Config { limits, observer, fluctuation: (), governor, balancer: () };
-            let governed = |governor| Config { limits, observer, fluctuation: (), governor, balancer: () };
+            macro_rules! held {
+                ($drive:ty, $two:expr, $with:expr) => {{
+                    let with = $with;
+                    let [one, two] = $two;
+                    let whole = |governor| Config { limits, observer, fluctuation: (), governor, balancer: () };
+                    let (first, second) = (whole(with(&one)?), whole(with(&two)?));
+                    Box::new(Held(<$drive>::new(&first, 0), [first, second], drawn.bases))
+                }};
+            }
             Some(match $kind {
-                0 => {
-                    let first = whole(SpeedLoopConfig::<N>::try_new(&speed_loop, settings, bases).ok()?);
-                    let second = whole(SpeedLoopConfig::<N>::try_new(&softer, settings, bases).ok()?);
-                    Box::new(Held(Plain::<N>::new(&first, 0), [first, second], drawn.bases))
-                }
-                1 => {
-                    let with = |design| {
-                        Some(SpeedGovernorConfig {
-                            gains: Gains::<N>::try_of_speed_loop(design, settings, bases).ok()?,
-                            shape: DroopConfig::<N>::try_new(drawn.droop, drawn.speed, drawn.torque_limit, bases)
-                                .ok()?,
-                            compensation: (
-                                FeedForwardConfig::<N>::try_new(drawn.forward.share, bases).ok()?,
-                                ActiveDampingConfig::<N>::try_new(design, bases).ok()?,
-                            ),
-                            limit: slew,
-                            sequence: (),
-                            filter: (),
-                        })
-                    };
-                    let (first, second) = (governed(with(&speed_loop)?), governed(with(&softer)?));
-                    Box::new(Held(Composed::<N>::new(&first, 0), [first, second], drawn.bases))
-                }
-                _ => {
-                    let actuator = driveline::design::Actuator { delay: 5.0 * drawn.period, lag: 10.0 * drawn.period };
-                    let with = |factor| {
-                        let design = drawn.machine.try_governor(rate, actuator, factor, LoadFeedForward::NONE).ok()?;
-                        let gains = Gains::<N>::try_new(&design, settings, bases).ok()?;
-                        Some(SpeedGovernorConfig {
-                            gains,
-                            shape: (),
-                            compensation: (),
-                            limit: slew,
-                            sequence: (),
-                            filter: (),
-                        })
-                    };
-                    let governed = |governor| Config { limits, observer, fluctuation: (), governor, balancer: () };
-                    let (first, second) = (governed(with(drawn.factor)?), governed(with(2.0 * drawn.factor)?));
-                    Box::new(Held(Slewed::<N>::new(&first, 0), [first, second], drawn.bases))
-                }
+                0 => held!(Plain::<N>, designs.speed_loops, |design| {
+                    SpeedLoopConfig::<N>::try_new(design, settings, bases).ok()
+                }),
+                1 => held!(Composed::<N>, designs.speed_loops, |design| {
+                    Some(SpeedGovernorConfig {
+                        gains: Gains::<N>::try_of_speed_loop(design, settings, bases).ok()?,
+                        shape: DroopConfig::<N>::try_new(drawn.droop, drawn.speed, drawn.torque_limit, bases).ok()?,
+                        compensation: (
+                            FeedForwardConfig::<N>::try_new(drawn.forward.share, bases).ok()?,
+                            ActiveDampingConfig::<N>::try_new(design, bases).ok()?,
+                        ),
+                        limit: slew,
+                        sequence: (),
+                        filter: (),
+                    })
+                }),
+                _ => held!(Slewed::<N>, designs.governors?, |design| {
+                    let gains = Gains::<N>::try_new(design, settings, bases).ok()?;
+                    Some(SpeedGovernorConfig {
+                        gains,
+                        shape: (),
+                        compensation: (),
+                        limit: slew,
+                        sequence: (),
+                        filter: (),
+                    })
+                }),
             })
         })()
     }};
@@ -300,13 +314,15 @@ fn try_one(seed: u64, tally: &mut Tally) {
     let mut drawn = draw(random);
     let kind = random.word() % 3;
     tally.drawn += 1;
-    let (Some(single), Some(double)) = (drives!(f32, &drawn, kind), drives!(f64, &drawn, kind)) else { return };
+    let Some(designs) = Designs::of(&drawn) else { return };
+    let (single, double) = (drives!(f32, &drawn, &designs, kind), drives!(f64, &drawn, &designs, kind));
+    let (Some(single), Some(double)) = (single, double) else { return };
     // the first bases that hold the coefficients, as a machine's own are found
     let Bases { torque, speed, .. } = drawn.bases;
     let found = (0..18).find_map(|doubling| {
         let [torque, speed] = [torque * f64::from(1 << (doubling % 6)), speed * f64::from(1 << (doubling / 6))];
         drawn.bases = Bases::new(&drawn.machine, torque, speed);
-        drives!(Fixed, &drawn, kind)
+        drives!(Fixed, &drawn, &designs, kind)
     });
     let Some(fixed) = found else { return };
     tally.accepted += 1;
