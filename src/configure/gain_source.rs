@@ -21,6 +21,14 @@ impl GainSource {
         }
     }
 
+    /// The integral gain in a tick, k_i T (N m s/rad).
+    pub(super) const fn integral(&self) -> f64 {
+        match self {
+            GainSource::SpeedLoop(design) => design.integral * design.period,
+            GainSource::Governor(design) => design.integral * design.period,
+        }
+    }
+
     pub(super) const fn governor(&self) -> &GovernorDesign {
         match self {
             GainSource::Governor(design) => design,

@@ -20,6 +20,8 @@ pub(super) const RAMP: &str = "the ramp of the governor must be positive and fin
     the base of the speed, in fixed point at least 2^-28 of it";
 const DROOP: &str = "the droop must be zero or above and finite, for a rated speed and torque above zero, and below \
     half a base of the speed per base of the torque in fixed point";
+const FAST_DROOP: &str = "the droop settles within four ticks (droop times k_i T is above 1/4): lower the droop or the \
+    bandwidth, or raise the rate";
 const SHARE: &str = "the share of the load torque that is fed forward must be from 0 to 1";
 pub(super) const LIMIT: &str = "the torque limit of the governor must be positive and finite, its least zero or below, \
     and both within the base of the torque in fixed point, and the limit at least 1/8192 of it: lower the base";
@@ -212,11 +214,22 @@ constants! {
         Ok(Gains { proportional, reset, ramp: get!(To::number(ramp, GAIN)) })
     }
 
-    /// [`Error`] for a droop (a fraction of the rated speed (rad/s) at the rated torque (N m)) that is out of range.
-    impl[] DroopConfig[], new, try_new(fraction: f64, rated_speed: f64, rated_torque: f64), |format| {
-        let droop = fraction * rated_speed / rated_torque * format.bases.torque / format.bases.speed;
+    /// Droop under the gains of a governor, whose integral gain is k_i T in a tick (N m s/rad): by itself the integral
+    /// then decays by the factor 1 - R k_i T a tick.
+    ///
+    /// [`Error`] for a droop (a fraction of the rated speed (rad/s) at the rated torque (N m)) that is out of range,
+    /// or where R k_i T is above 1/4. A faster droop turns against every step of a slew limit and amplifies its
+    /// rounding; beyond 2 it grows by itself.
+    impl[] DroopConfig[], new, try_new(
+        fraction: f64, rated_speed: f64, rated_torque: f64, integral: f64
+    ), |format| {
+        let slope = fraction * rated_speed / rated_torque;
+        let droop = slope * format.bases.torque / format.bases.speed;
         if !(fraction >= 0.0 && rated_speed > 0.0 && rated_torque > 0.0 && all_finite(&[droop])) {
             return Err(Error::Value(DROOP));
+        }
+        if !(integral >= 0.0 && slope * integral <= 0.25) {
+            return Err(Error::Value(FAST_DROOP));
         }
         Ok(DroopConfig { droop: get!(To::coefficient(droop, DROOP)) })
     }

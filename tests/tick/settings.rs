@@ -236,7 +236,7 @@ fn the_bases_of_a_machine() {
             Bases { twist_rate: value, ..BASES },
             Bases { forcing: value, ..BASES },
         ] {
-            assert!(DroopConfig::<Fixed>::try_new(0.03, 150.0, 300.0, bases).is_err(), "{bases:?}");
+            assert!(DroopConfig::<Fixed>::try_new(0.03, 150.0, 300.0, 1.0, bases).is_err(), "{bases:?}");
         }
     }
 }
@@ -426,11 +426,15 @@ fn the_constants_of_a_governor() {
 #[test]
 fn the_constants_of_a_governors_parts() {
     // 3 % of 150 rad/s at 300 N m
-    let si = DroopConfig::<f64>::try_new(0.03, 150.0, 300.0, BASES).unwrap();
-    let fixed = DroopConfig::<Fixed>::try_new(0.03, 150.0, 300.0, BASES).unwrap();
+    let si = DroopConfig::<f64>::try_new(0.03, 150.0, 300.0, 1.0, BASES).unwrap();
+    let fixed = DroopConfig::<Fixed>::try_new(0.03, 150.0, 300.0, 1.0, BASES).unwrap();
     double(si.droop, 0.015);
     coefficient(fixed.droop, 0.015 * BASES.torque / BASES.speed);
-    assert!(DroopConfig::<f64>::try_new(0.0, 150.0, 300.0, BASES).is_ok());
+    assert!(DroopConfig::<f64>::try_new(0.0, 150.0, 300.0, 1e9, BASES).is_ok());
+    // the integral alone decays by 1 - 0.015 k_i T a tick
+    for (integral, is_right) in [(0.0, true), (16.6, true), (16.7, false), (-1e-9, false), (f64::NAN, false)] {
+        assert_eq!(DroopConfig::<f32>::try_new(0.03, 150.0, 300.0, integral, BASES).is_ok(), is_right, "{integral}");
+    }
     for (droop, speed, torque) in [
         (-0.01, 150.0, 300.0),
         (0.01, 0.0, 300.0),
@@ -441,7 +445,7 @@ fn the_constants_of_a_governors_parts() {
         (f64::NAN, 150.0, 300.0),
         (f64::INFINITY, 150.0, 300.0),
     ] {
-        assert!(DroopConfig::<f32>::try_new(droop, speed, torque, BASES).is_err(), "{droop} {speed} {torque}");
+        assert!(DroopConfig::<f32>::try_new(droop, speed, torque, 1.0, BASES).is_err(), "{droop} {speed} {torque}");
     }
     let si = FeedForwardConfig::<f64>::try_new(0.7, BASES).unwrap();
     assert_eq!(si.share, 0.7);

@@ -57,7 +57,7 @@ impl Law {
 fn single() -> <Whole<f32> as Governor<f32>>::Config {
     SpeedGovernorConfig {
         gains: Gains::<f32>::new(&DESIGN, SETTINGS, Bases::SI),
-        shape: DroopConfig::<f32>::new(0.04, SPEED, TORQUE, Bases::SI),
+        shape: DroopConfig::<f32>::new(0.04, SPEED, TORQUE, DESIGN.integral * PERIOD, Bases::SI),
         compensation: FeedForwardConfig::<f32>::new(0.9, Bases::SI),
         limit: CurveConfig::<f32, 3>::new(&CURVE, -100.0, Bases::SI),
         sequence: (),
@@ -68,7 +68,7 @@ fn single() -> <Whole<f32> as Governor<f32>>::Config {
 fn fixed() -> <Whole<Fixed> as Governor<Fixed>>::Config {
     SpeedGovernorConfig {
         gains: Gains::<Fixed>::new(&DESIGN, SETTINGS, BASES),
-        shape: DroopConfig::<Fixed>::new(0.04, SPEED, TORQUE, BASES),
+        shape: DroopConfig::<Fixed>::new(0.04, SPEED, TORQUE, DESIGN.integral * PERIOD, BASES),
         compensation: FeedForwardConfig::<Fixed>::new(0.9, BASES),
         limit: CurveConfig::<Fixed, 3>::new(&CURVE, -100.0, BASES),
         sequence: (),

@@ -23,7 +23,7 @@ fn settled(rated: [f64; 2], droop: [f64; 2], load: f64) -> (f64, [f64; 2]) {
     });
     let config = [0, 1].map(|k: usize| SpeedGovernorConfig {
         gains: Gains::<f64>::new(&design[k], SpeedLoopSettings { torque_limit: 1.1 * rated[k], ramp: 40.0 }, Bases::SI),
-        shape: DroopConfig::<f64>::new(droop[k], SPEED, rated[k], Bases::SI),
+        shape: DroopConfig::<f64>::new(droop[k], SPEED, rated[k], design[k].integral * PERIOD, Bases::SI),
         compensation: (),
         limit: TorqueRangeConfig::<f64>::new(0.0, 1.1 * rated[k], Bases::SI),
         sequence: (),

@@ -17,13 +17,10 @@ type Switched = StateOf<SpeedGovernor<Droop, FeedForward>, f64>;
 
 fn config(span: f64, droop: f64, share: f64) -> <Switched as Governor<f64>>::Config {
     let actuator = Actuator { delay: 0.02, lag: 0.02 };
+    let design = MACHINE.governor(Rate::hz(2000), actuator, span, LoadFeedForward::NONE);
     SpeedGovernorConfig {
-        gains: Gains::<f64>::new(
-            &MACHINE.governor(Rate::hz(2000), actuator, span, LoadFeedForward::NONE),
-            SpeedLoopSettings { torque_limit: 3000.0, ramp: 40.0 },
-            Bases::SI,
-        ),
-        shape: DroopConfig::<f64>::new(droop, 157.0, 2500.0, Bases::SI),
+        gains: Gains::<f64>::new(&design, SpeedLoopSettings { torque_limit: 3000.0, ramp: 40.0 }, Bases::SI),
+        shape: DroopConfig::<f64>::new(droop, 157.0, 2500.0, design.integral * design.period, Bases::SI),
         compensation: FeedForwardConfig::<f64>::new(share, Bases::SI),
         limit: SymmetricLimitConfig::<f64>::new(3000.0, Bases::SI),
         sequence: (),

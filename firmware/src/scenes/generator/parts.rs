@@ -6,22 +6,26 @@ macro_rules! parts {
         pub mod $module {
             use super::super::*;
             use crate::scenes::hoist::Hoist;
-            use driveline::design::Averaging;
+            use driveline::design::{Averaging, GovernorDesign};
             use driveline::governor::{
                 ActiveDampingConfig, BarredConfig, CurveConfig, DroopConfig, FeedForwardConfig, Gains,
                 MovingAverageConfig, SequencerConfig, SlewConfig, SymmetricLimitConfig, TorqueRangeConfig,
             };
             use driveline::settings::{SequencerSettings, SpeedLoopSettings};
 
+            const GOVERNOR: GovernorDesign = DIESEL.governor(false).behind(Averaging::Ticks(FIRING as u32));
             /// Gains and ramp.
             pub const GAINS: Gains<$number> = Gains::<$number>::new(
-                &DIESEL.governor(false).behind(Averaging::Ticks(FIRING as u32)),
+                &GOVERNOR,
                 SpeedLoopSettings { torque_limit: DIESEL_TORQUE, ramp: DIESEL.ramp },
                 $bases,
             );
             /// Droop.
             pub const DROOP: DroopConfig<$number> =
-                DroopConfig::<$number>::new(super::super::DROOP, RATED_SPEED, DIESEL_TORQUE, $bases);
+{
+                    let integral = GOVERNOR.integral * GOVERNOR.period;
+                    DroopConfig::<$number>::new(super::super::DROOP, RATED_SPEED, DIESEL_TORQUE, integral, $bases)
+                };
             /// Barred speeds.
             pub const BARRED: BarredConfig<$number, 1> =
                 BarredConfig::<$number, 1>::new(&DIESEL.barred, 4.0 * DIESEL.ramp, PERIOD, $bases);
