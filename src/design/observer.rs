@@ -4,7 +4,7 @@
 //! torque. The transition is exact: momentum moves as one rigid machine, and the twist by [`ExactStep`].
 
 use super::tuning::{Disturbance, Encoder, Rate, Variances};
-use super::{Error, ExactStep, Kalman, Matrix, SemiImplicitStep, StepChoice};
+use super::{Error, ExactStep, Kalman, Matrix, SemiImplicitStep, StepChoice, eigenvalues, spectral_radius};
 use crate::machine::TwoMass;
 use crate::math::{exp, sqrt};
 
@@ -41,7 +41,8 @@ pub struct TwoMassDesign {
     pub step: ExactStep,
     /// The cheap step, with its error.
     pub semi_implicit: SemiImplicitStep,
-    /// Which of the two to take: at [`StepChoice::THRESHOLD`], unless [`with_step`](Self::with_step) overruled it.
+    /// Which of the two to take: at [`StepChoice::THRESHOLD`], the exact one where the error of the estimate grows with
+    /// the other, unless [`with_step`](Self::with_step) overruled it.
     pub chosen: StepChoice,
     /// Transition of the state over a tick.
     pub transition: Matrix<5, 5>,
@@ -53,6 +54,8 @@ pub struct TwoMassDesign {
     pub poles: [(f64, f64); 5],
     /// Largest size of a pole.
     pub spectral_radius: f64,
+    /// Largest size of a pole with the semi-implicit step and the same gains; from 1 on the error grows.
+    pub semi_implicit_radius: f64,
     /// Predicted standard deviations.
     pub standard_deviation: StandardDeviation,
     /// Predicted standard deviation of the innovation (rad).
@@ -119,17 +122,22 @@ impl TwoMass {
         let p = &filter.posterior;
         let torque_row = Matrix([[0.0, self.damping, self.stiffness, -self.damping, 0.0]]);
         let shaft_torque = torque_row.times(p).times(&torque_row.transpose()).0[0][0];
+        let gains = filter.gain.transpose().0[0];
+        let radius = semi_implicit_radius(self, &gains, p, period);
+        let chosen =
+            if radius < 1.0 { StepChoice::choose(&semi_implicit, StepChoice::THRESHOLD) } else { StepChoice::Exact };
         Ok(TwoMassDesign {
             period,
             machine: *self,
             step,
             semi_implicit,
-            chosen: StepChoice::choose(&semi_implicit, StepChoice::THRESHOLD),
+            chosen,
             transition,
             input,
-            gains: filter.gain.transpose().0[0],
+            gains,
             poles: filter.poles,
             spectral_radius: filter.spectral_radius,
+            semi_implicit_radius: radius,
             standard_deviation: StandardDeviation {
                 motor_angle: sqrt(p.0[0][0]),
                 motor_speed: sqrt(p.0[1][1]),
@@ -152,6 +160,30 @@ impl TwoMassDesign {
         self.chosen = step;
         self
     }
+}
+
+/// Largest size of a pole of the estimate's error where these gains correct the semi-implicit step, of the states
+/// `[theta_m, omega_m, tau_s/k, omega_l, tau_L]`; the covariance is the unit.
+const fn semi_implicit_radius(machine: &TwoMass, gains: &[f64; 5], covariance: &Matrix<5, 5>, t: f64) -> f64 {
+    let TwoMass { motor_inertia: jm, load_inertia: jl, stiffness: k, damping, .. } = *machine;
+    let (by_motor, by_load, lag) = (t * k / jm, t * k / jl, damping / k);
+    let step = Matrix([
+        [1.0, t, -t * by_motor, 0.0, 0.0],
+        [0.0, 1.0, -by_motor, 0.0, 0.0],
+        [0.0, t, 1.0 - (t + lag) * (by_motor + by_load), -t, (t + lag) * t / jl],
+        [0.0, 0.0, by_load, 1.0, -t / jl],
+        [0.0, 0.0, 0.0, 0.0, 1.0],
+    ]);
+    let [angle, motor, twist, load, torque] = *gains;
+    let gain = Matrix([[angle], [motor], [twist + lag * (motor - load)], [load], [torque]]);
+    let left = Matrix::IDENTITY.plus(-1.0, &gain.times(&Matrix([[1.0, 0.0, 0.0, 0.0, 0.0]])));
+    let mut per = [1.0; 5];
+    each!(i, 0..5, {
+        if covariance.0[i][i] > 0.0 {
+            per[i] = 1.0 / sqrt(covariance.0[i][i]);
+        }
+    });
+    spectral_radius(&eigenvalues(&left.times(&step).scaled(&per, &per)))
 }
 
 /// Exact transition and input of the five states over a tick.

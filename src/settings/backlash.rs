@@ -4,7 +4,7 @@ use super::constants::constants;
 use super::convert::positive;
 use super::format::ANGLE_PER_RADIAN;
 use super::{Bases, Error, Format};
-use crate::design::BacklashDesign;
+use crate::design::{BacklashDesign, PlacedObserver};
 use crate::observer::{BacklashConfig, Contact, Correction, FreeFlight, TwoMassConfig};
 
 const GAIN: &str = "a searching gain of the observer of backlash is beyond the range of its number: let the twist \
@@ -61,7 +61,7 @@ constants! {
     /// [`Error::Coefficient`] where one is beyond the range of fixed point, [`Error::Value`] for a gap that is not
     /// positive and finite, or wider than the bases allow.
     impl[] BacklashConfig[], new, try_new(design: &BacklashDesign), |format| {
-        let c = get!(TwoMassConfig::<Number>::try_new(&design.contact, format.bases));
+        let c = get!(TwoMassConfig::<Number>::try_of_placed(&PlacedObserver::of(&design.contact), format.bases));
         let a = added(design, &format);
         if format.unit == 1.0 {
             get!(positive(a.half_gap, GAP));

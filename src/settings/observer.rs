@@ -4,6 +4,7 @@ use super::constants::constants;
 use super::format::ANGLE_PER_RADIAN;
 use super::{Bases, Error, Format};
 use crate::design::{PlacedObserver, RigidDesign, StepChoice, TwoMassDesign};
+use crate::machine::TwoMass;
 use crate::observer::{RigidConfig, SemiImplicitConfig, TwoMassConfig};
 
 const STEP: &str = "a coefficient of the observer's step is beyond the range of its number: the machine is too soft, \
@@ -15,6 +16,7 @@ const TWIST: &str = "the base of the twist is too large for the exact step: take
     chose its step, lower the base of the torque, or state the accuracy of a fine encoder";
 const COARSE: &str = "the semi-implicit step is too coarse for this machine at this rate: take TwoMassObserver, which \
     has the exact step the design chose, or overrule the design by with_step(StepChoice::SemiImplicit)";
+const GROWS: &str = "the error of the estimates grows with the semi-implicit step: take TwoMassObserver";
 
 /// Units of an angle's correction per innovation, of a turn in a tick, and of the widened operands.
 const fn scales(format: &Format) -> (f64, f64, f64) {
@@ -23,8 +25,16 @@ const fn scales(format: &Format) -> (f64, f64, f64) {
 }
 
 constants! {
-    /// [`Error::Coefficient`] where one is beyond the range of its number.
+    /// [`Error::Coefficient`] where one is beyond the range of its number, and in fixed point for a design that chose
+    /// the semi-implicit step, where the twist's unit turns the motor by more than the unit of a turn: every tick
+    /// rounds the twist, and the torques of strongly damped loops were 1 % of their limit away from `f32`.
     impl[] TwoMassConfig[], new, try_new(design: &TwoMassDesign), |format| {
+        let TwoMass { motor_inertia, load_inertia, .. } = design.machine;
+        let twist = format.bases.twist / format.unit * ANGLE_PER_RADIAN;
+        let turn = load_inertia / (motor_inertia + load_inertia) * twist;
+        if format.unit != 1.0 && matches!(design.chosen, StepChoice::SemiImplicit) && turn > format.turn {
+            return Err(Error::Coefficient(TWIST));
+        }
         Self::try_of_placed(&PlacedObserver::of(design), format.bases)
     }
 
@@ -71,8 +81,12 @@ constants! {
     }
 
     /// [`Error::Value`] for a design that chose the exact step and was not overruled
-    /// ([`TwoMassDesign::with_step`]), [`Error::Coefficient`] where a coefficient is beyond the range of its number.
+    /// ([`TwoMassDesign::with_step`]), and where the error of the estimates grows with this step; [`Error::Coefficient`]
+    /// where a coefficient is beyond the range of its number.
     impl[] SemiImplicitConfig[], new, try_new(design: &TwoMassDesign), |format| {
+        if !(design.semi_implicit_radius < 1.0) {
+            return Err(Error::Value(GROWS));
+        }
         if matches!(design.chosen, StepChoice::Exact) {
             return Err(Error::Value(COARSE));
         }

@@ -116,6 +116,7 @@ impl Place {
             gains: [0.0; 5],
             poles: [(1.0, 0.0); 5],
             spectral_radius: 1.0,
+            semi_implicit_radius: 0.0,
             standard_deviation: StandardDeviation {
                 motor_angle: f64::INFINITY,
                 motor_speed: f64::INFINITY,
