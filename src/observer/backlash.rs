@@ -20,6 +20,10 @@
 //! with coefficients that are exact for small shares and, on a flank from which the tick begins, for the whole tick. It
 //! is one division and no loop.
 //!
+//! Contact begins and ends at zero stretch, where the damping still acts. A damped flank so pulls for a moment as it
+//! opens, which no tooth does: rms 0.07 % of the peak torque in the median at damping ratios of 1 to 3 %, 0.3 % at 3 to
+//! 10 % (200 random gear pairs, integrated with and without the pull).
+//!
 //! # Where in the gap
 //! The twist is one state through all regimes, and is kept through free flight. The side is its sign, so a wrong side
 //! is put right by the same innovations that put the twist right.
