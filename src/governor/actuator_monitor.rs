@@ -17,6 +17,22 @@ use crate::fault::Faults;
 use crate::number::Number;
 
 /// Monitors an actuator of `K` lags in a row, at least one.
+///
+/// ```
+/// use driveline::governor::{ActuatorMonitor, ActuatorMonitorConfig, Trip};
+/// // a rack with a lag of 20 ms at 1000 ticks a second; a tenth of 2500 N m is plausible, 0.1 s the patience
+/// const CONFIG: ActuatorMonitorConfig<f64, 1> =
+///     ActuatorMonitorConfig { share: [0.0488], tolerance: 250.0, max_torque: 3000.0, timeout: 100 };
+/// let mut monitor = ActuatorMonitor::new();
+/// let mut stuck = |ticks| {
+///     for _ in 0..ticks {
+///         monitor.check(&CONFIG, 0.0);
+///         monitor.advance(&CONFIG, 2500.0);
+///     }
+///     monitor.trip(&CONFIG)
+/// };
+/// assert_eq!((stuck(90), stuck(20)), (None, Some(Trip::Actuator)));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ActuatorMonitor<N, const K: usize> {

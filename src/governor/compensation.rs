@@ -65,6 +65,15 @@ impl<N: Number, A: Compensation<N>, B: Compensation<N>> Compensation<N> for (A, 
 ///
 /// The estimate depends on the applied torque. With a slow actuator the observer must be given the torque with the same
 /// delay ([`TransportDelay`](super::TransportDelay)), or the feed-forward feeds itself.
+///
+/// ```
+/// use driveline::governor::{Compensation, FeedForward, FeedForwardConfig};
+/// use driveline::{sample::Estimate, settings::Bases};
+/// // nine tenths of a load of 1000 N m, on 50 N m of the loop
+/// const SHARE: FeedForwardConfig<f64> = FeedForwardConfig::<f64>::new(0.9, Bases::SI);
+/// let estimate = Estimate { load_torque: 1000.0, ..Estimate::default() };
+/// assert_eq!(FeedForward.steady(&SHARE, &estimate, 50.0), 950.0);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[doc(alias = "feed forward")]
@@ -99,6 +108,15 @@ impl<N: Number> Compensation<N> for FeedForward {
 /// the ripple. For a flat torque leave it out and take [`CycleAverage`](super::CycleAverage): the speed swings then.
 ///
 /// The droop leaves it out, which is zero in the mean. Home the crank first.
+///
+/// ```
+/// use driveline::governor::{Compensation, MechanismFeedForward};
+/// use driveline::sample::Estimate;
+/// // in a drive the mechanism's observer gives its torque: J' omega^2/2 with J' = 0.5 kg m2/rad at 20 rad/s
+/// let mut feed_forward = MechanismFeedForward::default();
+/// feed_forward.set_known_torque(0.5 * 20.0 * 20.0 / 2.0);
+/// assert_eq!(feed_forward.transient(&(), &Estimate::default(), 30.0), 130.0);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct MechanismFeedForward<N = f32> {
@@ -120,6 +138,15 @@ impl<N: Number> Compensation<N> for MechanismFeedForward<N> {
 }
 
 /// Active damping: torque against the estimated twist rate, like a damper between motor and load.
+///
+/// ```
+/// use driveline::governor::{ActiveDamping, ActiveDampingConfig, Compensation};
+/// use driveline::sample::Estimate;
+/// // 8 N m s/rad against a motor that turns 2 rad/s faster than its load
+/// const DAMPING: ActiveDampingConfig<f64> = ActiveDampingConfig { damping: -8.0 };
+/// let twisting = Estimate { motor_speed: 102.0, load_speed: 100.0, ..Estimate::default() };
+/// assert_eq!(ActiveDamping.transient(&DAMPING, &twisting, 50.0), 50.0 - 8.0 * 2.0);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ActiveDamping;
@@ -154,6 +181,15 @@ impl<N: Number> Compensation<N> for ActiveDamping {
 ///
 /// The acceleration is the shaft torque less the load torque, over the load's inertia. Use it where the shaft torque
 /// has no ripple in every cycle.
+///
+/// ```
+/// use driveline::governor::{AccelerationFeedback, AccelerationFeedbackConfig, Compensation};
+/// use driveline::sample::Estimate;
+/// // as with a flywheel of half the load's inertia: half of the 200 N m that brake the load are added
+/// const FLYWHEEL: AccelerationFeedbackConfig<f64> = AccelerationFeedbackConfig { feedback: -0.5 };
+/// let jump = Estimate { shaft_torque: 100.0, load_torque: 300.0, ..Estimate::default() };
+/// assert_eq!(AccelerationFeedback.transient(&FLYWHEEL, &jump, 50.0), 150.0);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct AccelerationFeedback;

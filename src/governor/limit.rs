@@ -33,6 +33,13 @@ pub trait Limit<N: Number>: Default {
 }
 
 /// The same limit in both directions.
+///
+/// ```
+/// use driveline::governor::{Limit, SymmetricLimit, SymmetricLimitConfig};
+/// use driveline::sample::Estimate;
+/// const LIMIT: SymmetricLimitConfig<f64> = SymmetricLimitConfig { torque: 550.0 };
+/// assert_eq!(SymmetricLimit.permitted(&LIMIT, &Estimate::default(), -700.0), -550.0); // it brakes as it drives
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SymmetricLimit;
@@ -60,6 +67,14 @@ impl<N: Number> Limit<N> for SymmetricLimit {
 }
 
 /// A range of torque: an engine or a turbine, which drives and does not brake.
+///
+/// ```
+/// use driveline::governor::{Limit, TorqueRange, TorqueRangeConfig};
+/// use driveline::sample::Estimate;
+/// // an engine that brakes by its friction of 250 N m
+/// const ENGINE: TorqueRangeConfig<f64> = TorqueRangeConfig { min: -250.0, max: 2546.0 };
+/// assert_eq!(TorqueRange.permitted(&ENGINE, &Estimate::default(), -700.0), -250.0);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TorqueRange;
@@ -107,6 +122,17 @@ impl<N: Number> Limit<N> for TorqueRange {
 }
 
 /// The prime mover's curve of torque against speed, by `K` straight lines; a power limit is part of it.
+///
+/// ```
+/// use driveline::design::TorqueCurve;
+/// use driveline::governor::{Curve, CurveConfig, Limit};
+/// use driveline::{sample::Estimate, settings::Bases};
+/// // 264 N m at rest, 1910 N m at 600 r/min: halfway between at 300 r/min
+/// const POINTS: TorqueCurve<3> = TorqueCurve::through([[0.0, 264.0], [62.8, 1910.0], [125.7, 2838.0]]);
+/// const CURVE: CurveConfig<f64, 3> = CurveConfig::<f64, 3>::new(&POINTS, 0.0, Bases::SI);
+/// let halfway = Estimate { motor_speed: 31.4, ..Estimate::default() };
+/// assert!((Curve.permitted(&CURVE, &halfway, 3000.0) - (264.0 + 1910.0) / 2.0).abs() < 1e-9);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Curve<const K: usize>;
@@ -163,6 +189,17 @@ impl<N: Number, const K: usize> Limit<N> for Curve<K> {
 }
 
 /// Another limit, and a slew limit. Where the other limit falls faster, it prevails.
+///
+/// ```
+/// use driveline::governor::{Limit, Slew, SlewConfig, SymmetricLimit, SymmetricLimitConfig};
+/// use driveline::{sample::Estimate, settings::Bases};
+/// // 4000 N m/s at 1000 ticks a second: 300 N m in 75 ticks
+/// const LIMIT: SymmetricLimitConfig<f64> = SymmetricLimitConfig { torque: 550.0 };
+/// const SLEW: SlewConfig<f64, SymmetricLimitConfig<f64>> = SlewConfig::<f64, _>::new(4000.0, LIMIT, 1e-3, Bases::SI);
+/// let mut slew = Slew::<SymmetricLimit, f64>::default();
+/// let ticks = (1..).find(|_| slew.limit(&SLEW, &Estimate::default(), 300.0) == 300.0);
+/// assert_eq!(ticks, Some(75));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Slew<L, N = f32> {

@@ -49,6 +49,19 @@ pub struct LoadSharingConfig<N: Number> {
 }
 
 /// State of the load sharing of `MOTORS` motors, an even number of them.
+///
+/// ```
+/// use driveline::governor::{LoadSharing, LoadSharingConfig};
+/// // two pinions on a ring gear, 10 N m of bias that changes by 1 N m a tick, no damping against each other
+/// const CONFIG: LoadSharingConfig<f64> = LoadSharingConfig {
+///     share: 0.5, preload: 10.0, equal_above: 200.0, bias_below: 150.0, step: 1.0, torque_limit: 100.0,
+///     damping: 0.0, lag: 4, max_deviation: 1 << 24,
+/// };
+/// let mut sharing = LoadSharing::<f64, 2>::default();
+/// let torques = (0..20).map(|_| sharing.torques(&CONFIG, 0.0, 0.0)).last().unwrap();
+/// // the mount stands still, and each pinion presses on a flank of its own
+/// assert_eq!((torques[0] + torques[1], torques[0].abs()), (0.0, 10.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 // The order keeps the runs of words that a start clears short: for long ones the compiler calls a loop to clear them.

@@ -15,6 +15,15 @@ pub struct ResistorStarterConfig<N, const STEPS: usize> {
 }
 
 /// Counts the resistors that are cut out. None is put back by a falling speed: [`restart`](Self::restart) does that.
+///
+/// ```
+/// use driveline::governor::{ResistorStarter, ResistorStarterConfig};
+/// // two resistors, cut out at 60 and 100 rad/s, the contactors 50 ticks apart
+/// const CONFIG: ResistorStarterConfig<f32, 2> = ResistorStarterConfig { speeds: [60.0, 100.0], interval: 50 };
+/// let mut starter = ResistorStarter::default();
+/// let cut_out = [0.0, 70.0, 120.0].map(|speed| (0..60).map(|_| starter.tick(&CONFIG, speed)).last());
+/// assert_eq!(cut_out, [Some(0), Some(1), Some(2)]);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ResistorStarter {

@@ -75,6 +75,15 @@ impl<N: Number> Sequence<N> for () {
 }
 
 /// Why a machine was tripped.
+///
+/// ```
+/// use driveline::governor::{RunState, Sequencer, Trip};
+/// let mut sequencer = Sequencer::default();
+/// assert!(sequencer.trip(Trip::Requested));
+/// assert!(!sequencer.trip(Trip::Overspeed)); // the first cause stands
+/// assert_eq!(sequencer.state(), RunState::Tripped(Trip::Requested));
+/// assert_eq!(Trip::ShaftOverload.to_string(), "shaft overload");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Trip {
@@ -117,6 +126,15 @@ impl core::fmt::Display for Trip {
 }
 
 /// State of the run sequence.
+///
+/// ```
+/// use driveline::governor::{RunRequest, RunState, Sequencer};
+/// let mut sequencer = Sequencer::default();
+/// sequencer.request(RunRequest::Start);
+/// // a lamp of the panel
+/// let lit = matches!(sequencer.state(), RunState::Starting | RunState::Running | RunState::Braking);
+/// assert!(lit);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum RunState {
@@ -134,6 +152,14 @@ pub enum RunState {
 }
 
 /// Requests to [`Sequencer`].
+///
+/// ```
+/// use driveline::governor::{RunRequest, Sequencer};
+/// let mut sequencer = Sequencer::default();
+/// // a tripped machine starts after a reset alone
+/// let [trip, start] = [RunRequest::Trip, RunRequest::Start].map(|request| sequencer.request(request));
+/// assert!(trip && !start && sequencer.request(RunRequest::Reset) && sequencer.request(RunRequest::Start));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum RunRequest {
@@ -168,6 +194,25 @@ pub struct SequencerConfig<N> {
 }
 
 /// The run sequence of a machine, with its trips.
+///
+/// ```
+/// use driveline::configure::Rating;
+/// use driveline::governor::{RunRequest, RunState, Sequence, Sequencer, SequencerConfig, Trip};
+/// use driveline::machine::{Speed, Torque};
+/// use driveline::{sample::Estimate, settings::{Bases, SequencerSettings}};
+/// const RATING: Rating = Rating { torque: Torque(300.0), speed: Speed(150.0), torque_limit: Torque(550.0) };
+/// const CONFIG: SequencerConfig<f64> =
+///     SequencerConfig::<f64>::new(&SequencerSettings::of(&RATING), 1e-3, Bases::SI);
+/// let mut sequencer = Sequencer::default();
+/// sequencer.request(RunRequest::Start);
+/// let mut tick = |motor_speed| {
+///     sequencer.action(&CONFIG, &Estimate { motor_speed, ..Estimate::default() });
+///     sequencer.state()
+/// };
+/// assert_eq!([10.0, 140.0].map(&mut tick), [RunState::Starting, RunState::Running]);
+/// // above 110 % of rated speed for longer than 10 ms
+/// assert_eq!((0..12).map(|_| tick(166.0)).last(), Some(RunState::Tripped(Trip::Overspeed)));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Sequencer {

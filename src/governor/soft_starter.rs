@@ -17,6 +17,16 @@ pub struct SoftStarterConfig<N> {
 }
 
 /// Raises the voltage tick by tick, and lowers it while the torque is above its limit.
+///
+/// ```
+/// use driveline::governor::{SoftStarter, SoftStarterConfig};
+/// // from 30 % of the voltage by 0.1 % a tick: the full one after 700 ticks, where the torque stays below 400 N m
+/// const CONFIG: SoftStarterConfig<f64> = SoftStarterConfig { initial: 0.3, step: 0.001, limit: 400.0 };
+/// let mut starter = SoftStarter::default();
+/// let halfway = (0..350).map(|_| starter.tick(&CONFIG, 250.0)).last().unwrap();
+/// assert!((halfway - 0.65).abs() < 2e-3);
+/// assert!(starter.tick(&CONFIG, 410.0) < halfway);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SoftStarter<N> {

@@ -46,6 +46,18 @@ impl<N: Number> SpeedFilter<N> for () {
 
 /// Moving averages of motor speed and load torque over the last `K` ticks, a power of two from 4 on; their delay is
 /// half of it. Shaft torque and load speed pass unchanged.
+///
+/// ```
+/// use core::f64::consts::TAU;
+/// use driveline::governor::{MovingAverage, MovingAverageConfig, SpeedFilter};
+/// use driveline::sample::Estimate;
+/// // 32 ticks to the firing interval: of a ripple of 3 rad/s nothing is left
+/// const AVERAGE: MovingAverageConfig<f64, 32> = MovingAverageConfig { share: 1.0 / 32.0 };
+/// let mut filter = MovingAverage::<32, f64>::default();
+/// let speeds = (0..64).map(|tick| 157.0 + 3.0 * (TAU * tick as f64 / 32.0).sin());
+/// let filtered = speeds.map(|motor_speed| filter.filter(&AVERAGE, &Estimate { motor_speed, ..Estimate::default() }));
+/// assert!((filtered.last().unwrap().motor_speed - 157.0).abs() < 1e-9);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct MovingAverage<const K: usize, N = f32> {
@@ -113,6 +125,16 @@ impl<N: Number, const K: usize> SpeedFilter<N> for MovingAverage<K, N> {
 ///
 /// Load feed-forward brings the ripple back: leave [`FeedForward`](super::FeedForward) out, or at nearly constant speed
 /// take [`MovingAverage`], which averages the load torque as well.
+///
+/// ```
+/// use driveline::governor::{CycleAverage, SpeedFilter};
+/// use driveline::sample::Estimate;
+/// // in a drive the fluctuation gives the speed without its ripple in every tick
+/// let mut filter = CycleAverage::default();
+/// filter.set_steady_speed(Some(157.0));
+/// let estimate = Estimate { motor_speed: 159.2, load_torque: 800.0, ..Estimate::default() };
+/// assert_eq!(filter.filter(&(), &estimate), Estimate { motor_speed: 157.0, ..estimate });
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CycleAverage<N = f32> {

@@ -59,6 +59,21 @@ pub struct SpeedGovernorConfig<N: Number, S, F, L, M, V> {
 
 /// State of the governor, by its parts: `S` shapes the setpoint, `F` compensates, `L` limits the torque, `M` is the run
 /// sequence, `V` filters the speed.
+///
+/// ```
+/// use driveline::governor::*;
+/// use driveline::sample::Estimate;
+/// // nothing but a proportional part of 20 N m s/rad and the limit; a drive has all of it from its machine
+/// const CONFIG: SpeedGovernorConfig<f64, (), (), SymmetricLimitConfig<f64>, (), ()> = SpeedGovernorConfig {
+///     gains: Gains { proportional: 20.0, reset: 0.0, ramp: 5.0 },
+///     limit: SymmetricLimitConfig { torque: 550.0 },
+///     shape: (), compensation: (), sequence: (), filter: (),
+/// };
+/// let mut governor = SpeedGovernor::<(), (), SymmetricLimit, (), (), f64>::default();
+/// governor.set_setpoint(150.0);
+/// // the ramp has moved by 5 rad/s in the first tick
+/// assert_eq!(governor.command(&CONFIG, &Estimate::default()), 20.0 * 5.0);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[doc(alias = "PI")]

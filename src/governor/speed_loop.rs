@@ -42,6 +42,20 @@ impl<N: Number> SpeedLoopConfig<N> {
 }
 
 /// State of the speed loop.
+///
+/// ```
+/// use driveline::governor::{Governor, SpeedLoop, SpeedLoopConfig};
+/// use driveline::sample::Estimate;
+/// const CONFIG: SpeedLoopConfig<f64> =
+///     SpeedLoopConfig { proportional: 20.0, damping: 0.0, reset: 0.01, torque_limit: 550.0, ramp: 300.0, filter: () };
+/// let mut governor = SpeedLoop::<(), f64>::default();
+/// governor.set_setpoint(100.0);
+/// // a motor that is held fast for a minute of ticks: the integral stays at the limit ...
+/// assert!((0..60_000).all(|_| governor.command(&CONFIG, &Estimate::default()) <= 550.0));
+/// // ... and once the motor turns 30 rad/s too fast, it brakes at once: no wind-up
+/// let fast = Estimate { motor_speed: 130.0, ..Estimate::default() };
+/// assert!((governor.command(&CONFIG, &fast) - (550.0 - 20.0 * 30.0)).abs() < 1e-9);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[doc(alias = "PI")]

@@ -5,6 +5,14 @@ use crate::number::Number;
 /// Delays the torque of an actuator's position by its dead time, for the observer.
 ///
 /// A ring of `K` ticks, a power of two. Nothing is screened.
+///
+/// ```
+/// use driveline::governor::{TransportDelay, TransportDelayConfig};
+/// // a firing delay of 5 ms at 1000 ticks a second
+/// const DELAY: TransportDelayConfig<8> = TransportDelayConfig { ticks: 5 };
+/// let mut delay = TransportDelay::new();
+/// assert_eq!((0..20).position(|_| delay.delayed(&DELAY, 300.0) == 300.0), Some(5));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TransportDelay<N, const K: usize> {
