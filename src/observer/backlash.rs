@@ -106,6 +106,22 @@ pub struct BacklashConfig<N: Number> {
 }
 
 /// State of the observer of backlash.
+///
+/// ```
+/// use driveline::design::{Disturbance, Encoder, BacklashTuning, Rate};
+/// use driveline::machine::{Damping, Gap, Inertia, Stiffness, TwoMass};
+/// use driveline::observer::{BacklashConfig, BacklashObserver, Observer};
+/// use driveline::settings::Bases;
+/// const SLACK: TwoMass =
+///     TwoMass::new(Inertia(0.35), Inertia(0.48), Stiffness(2.0e4), Damping(0.5)).with_gap(Gap(0.02));
+/// const LOAD: Disturbance = Disturbance { torque_accuracy: 3.0, load_torque_step: 150.0, within: 10.0 };
+/// const CONFIG: BacklashConfig<f64> = BacklashConfig::<f64>::new(
+///     &SLACK.backlash_observer(Rate::hz(10_000), Encoder::lines(2048), LOAD, BacklashTuning::USUAL), Bases::SI);
+/// // without torque the gap is open; under 40 N m the flank is reached, and the shaft twisted by 40/k beyond it
+/// assert!(BacklashObserver::<f64>::at_rest(&CONFIG, 0, 0.0).is_open(&CONFIG));
+/// let driving = BacklashObserver::<f64>::steady(&CONFIG, 0, 40.0, 100.0);
+/// assert!((driving.twist() - (0.02 / 2.0 + 40.0 / 2.0e4)).abs() < 1e-12);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(C)]

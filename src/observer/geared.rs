@@ -70,6 +70,24 @@ impl<N: Number> GearFriction<N> {
 }
 
 /// An observer behind a gear with losses.
+///
+/// ```
+#[doc = include_str!("../roll.txt")]
+/// use driveline::configure::Configure;
+/// use driveline::observer::{GearedConfig, GearedObserver, Observer, TwoMassConfig};
+/// use driveline::settings::Gear;
+/// // the roll behind a gear that loses 3 %
+/// const GEAR: Gear = Gear { efficiency: 0.97, inertia: 0.35, deadband: 0.0 };
+/// const ROLL: TwoMassConfig<f64> = <TwoMassObserver as Configure<Roll, f64>>::CONFIG;
+/// const CONFIG: GearedConfig<f64, TwoMassConfig<f64>> =
+///     GearedConfig::<f64, _>::new(ROLL, &GEAR, 1e-4, driveline::settings::Bases::SI);
+/// let mut observer = GearedObserver::<TwoMassObserver<f64>>::at_rest(&CONFIG, 0, 0.0);
+/// // of 100 N m at 100 rad/s, 0.01 rad a tick, the shaft gets 97
+/// for tick in 1..=20_000_u32 {
+///     observer.step(&CONFIG, tick.wrapping_mul(6_835_653), 100.0);
+/// }
+/// assert!((observer.estimate(&CONFIG).shaft_torque - 97.0).abs() < 0.1);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct GearedObserver<O> {

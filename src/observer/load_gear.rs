@@ -29,6 +29,21 @@ pub struct LoadGearConfig<N: Stiction, C> {
 }
 
 /// An observer in front of a gear with losses, whose shaft lies between the motor and the gear.
+///
+/// ```
+#[doc = include_str!("../roll.txt")]
+/// use driveline::configure::Configure;
+/// use driveline::observer::{LoadGearConfig, LoadGearObserver, Observer, TwoMassConfig};
+/// use driveline::settings::LoadGear;
+/// // between the roll and its load a gear that loses 3 %
+/// const GEAR: LoadGear = LoadGear { efficiency: 0.97, back_efficiency: 0.97, inertia: 0.48 };
+/// const ROLL: TwoMassConfig<f64> = <TwoMassObserver as Configure<Roll, f64>>::CONFIG;
+/// const CONFIG: LoadGearConfig<f64, TwoMassConfig<f64>> =
+///     LoadGearConfig::<f64, _>::new(ROLL, &GEAR, 1e-4, driveline::settings::Bases::SI);
+/// // the shaft carries all of 100 N m, the load gets 97
+/// let estimate = LoadGearObserver::<TwoMassObserver<f64>>::steady(&CONFIG, 0, 100.0, 100.0).estimate(&CONFIG);
+/// assert!((estimate.shaft_torque - 100.0).abs() < 1e-9 && (estimate.load_torque - 97.0).abs() < 1e-9);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadGearObserver<O> {

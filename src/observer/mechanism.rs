@@ -68,6 +68,23 @@ pub struct MechanismConfig<N: Number, const TOOLS: usize = 0> {
 }
 
 /// State of the observer of a machine with a mechanism: of one tool or none.
+///
+/// ```
+/// use driveline::design::{Disturbance, Encoder, Rate};
+/// use driveline::machine::{CrankSlider, DrivenMechanism, Inertia, Length, Mass, Mechanism};
+/// use driveline::observer::{MechanismConfig, MechanismObserver, Observer};
+/// use driveline::settings::Bases;
+/// // a crank of 0.1 m and a long rod: 40 kg move as s = r (1 - cos phi), with J' = m r^2 sin 2 phi
+/// const RAM: CrankSlider = CrankSlider::massless_rod(Length(0.1), Length(10.0), Inertia(1.0), Mass(40.0));
+/// const PRESS: DrivenMechanism = DrivenMechanism::new(Inertia(2.0), &Mechanism::slider_crank(&RAM), 1, 1);
+/// const LOAD: Disturbance = Disturbance { torque_accuracy: 1.0, load_torque_step: 50.0, within: 1.0 };
+/// const CONFIG: MechanismConfig<f64> =
+///     MechanismConfig::<f64>::new(&PRESS.observer(Rate::hz(1000), Encoder::lines(2048), LOAD), Bases::SI);
+/// let mut observer = MechanismObserver::<f64>::steady(&CONFIG, 0, 0.0, 20.0);
+/// observer.home(&CONFIG, 1 << 29); // 45 degrees behind the top dead centre
+/// let known = 40.0 * 0.1 * 0.1 / 2.0 * 20.0 * 20.0; // J' omega^2/2
+/// assert!((observer.known_torque(&CONFIG) / known - 1.0).abs() < 0.02);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct MechanismObserver<N = f32, const TOOLS: usize = 0> {
@@ -78,6 +95,23 @@ pub struct MechanismObserver<N = f32, const TOOLS: usize = 0> {
 }
 
 /// The observer of a mechanism with a tool, its weight and the force at it.
+///
+/// ```
+/// use driveline::design::{Disturbance, Encoder, Rate};
+/// use driveline::machine::{CrankSlider, DrivenMechanism, Inertia, Length, Mass, Mechanism};
+/// use driveline::observer::{MechanismConfig, Observer, ToolObserver};
+/// use driveline::settings::Bases;
+/// const RAM: CrankSlider = CrankSlider::massless_rod(Length(0.1), Length(10.0), Inertia(1.0), Mass(40.0));
+/// const PRESS: DrivenMechanism = DrivenMechanism::new(Inertia(2.0), &Mechanism::slider_crank(&RAM), 1, 1);
+/// const LOAD: Disturbance = Disturbance { torque_accuracy: 1.0, load_torque_step: 50.0, within: 1.0 };
+/// const CONFIG: MechanismConfig<f64, 1> =
+///     MechanismConfig::<f64, 1>::new(&PRESS.observer(Rate::hz(1000), Encoder::lines(2048), LOAD), Bases::SI);
+/// let mut observer = ToolObserver::<f64>::at_rest(&CONFIG, 0, 0.0);
+/// // the ram stands still in the dead centre, and moves most for an angle of the crank at about 90 degrees
+/// assert!(observer.leverage(&CONFIG).abs() < 1e-9);
+/// observer.home(&CONFIG, 1 << 30);
+/// assert!((observer.leverage(&CONFIG) - 1.0).abs() < 1e-3);
+/// ```
 pub type ToolObserver<N = f32> = MechanismObserver<N, 1>;
 
 impl<N: Number, const TOOLS: usize> MechanismObserver<N, TOOLS> {

@@ -29,6 +29,19 @@ pub struct RigidConfig<N: Number> {
 }
 
 /// State of the rigid observer.
+///
+/// ```
+#[doc = include_str!("../roll.txt")]
+/// use driveline::configure::Configure;
+/// use driveline::observer::{Observer, RigidConfig, RigidObserver};
+/// const CONFIG: RigidConfig<f64> = <RigidObserver as Configure<Roll, f64>>::CONFIG;
+/// let mut observer = RigidObserver::<f64>::at_rest(&CONFIG, 0, 0.0);
+/// // two seconds under 40 N m at 100 rad/s, 0.01 rad a tick (2^-32 turn)
+/// for tick in 1..=20_000_u32 {
+///     observer.step(&CONFIG, tick.wrapping_mul(6_835_653), 40.0);
+/// }
+/// assert!((observer.estimate(&CONFIG).load_torque - 40.0).abs() < 0.1);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(C)]

@@ -38,6 +38,25 @@ pub struct SemiImplicitConfig<N: Number> {
 }
 
 /// State of the semi-implicit two-mass observer.
+///
+/// ```
+/// use driveline::design::{Disturbance, Encoder, Rate};
+/// use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
+/// use driveline::observer::{Observer, SemiImplicitConfig, SemiImplicitObserver};
+/// use driveline::settings::Bases;
+/// const HOIST: TwoMass = TwoMass::new(Inertia(0.62), Inertia(0.35), Stiffness(900.0), Damping(0.5));
+/// const LOAD: Disturbance = Disturbance { torque_accuracy: 2.0, load_torque_step: 100.0, within: 10.0 };
+/// const CONFIG: SemiImplicitConfig<f64> =
+///     SemiImplicitConfig::<f64>::new(&HOIST.observer(Rate::hz(10_000), Encoder::lines(2048), LOAD), Bases::SI);
+/// let mut observer = SemiImplicitObserver::<f64>::at_rest(&CONFIG, 0, 0.0);
+/// // two seconds of 50 rad/s2 under 50 (0.62 + 0.35) N m, without load: the shaft accelerates 0.35 kg m2
+/// for tick in 1..=20_000 {
+///     let turns = 25.0 * (tick as f64 * 1e-4).powi(2) / core::f64::consts::TAU;
+///     observer.step(&CONFIG, (turns.fract() * 4_294_967_296.0) as u32, 48.5);
+/// }
+/// let estimate = observer.estimate(&CONFIG);
+/// assert!((estimate.shaft_torque - 17.5).abs() < 0.1 && estimate.load_torque.abs() < 0.1);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(C)]

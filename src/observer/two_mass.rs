@@ -48,6 +48,21 @@ pub struct TwoMassConfig<N: Number> {
 }
 
 /// State of the exact two-mass observer.
+///
+/// ```
+#[doc = include_str!("../roll.txt")]
+/// use driveline::configure::Configure;
+/// use driveline::observer::{Observer, TwoMassConfig};
+/// const CONFIG: TwoMassConfig<f64> = <TwoMassObserver as Configure<Roll, f64>>::CONFIG; // in a drive: `configure`
+/// let mut observer = TwoMassObserver::<f64>::at_rest(&CONFIG, 0, 0.0);
+/// // two seconds under 40 N m at 100 rad/s, 0.01 rad a tick (2^-32 turn): the load takes all of it
+/// for tick in 1..=20_000_u32 {
+///     observer.step(&CONFIG, tick.wrapping_mul(6_835_653), 40.0);
+/// }
+/// let estimate = observer.estimate(&CONFIG);
+/// assert!((estimate.shaft_torque - 40.0).abs() < 0.1 && (estimate.load_torque - 40.0).abs() < 0.1);
+/// assert!((estimate.load_speed - 100.0).abs() < 0.01);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(C)]
