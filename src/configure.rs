@@ -165,6 +165,17 @@ use crate::number::{Number, Part};
 use crate::observer::Observer;
 
 /// The constants of a part in the number `N`, for the machine `M`.
+///
+/// ```
+#[doc = include_str!("roll.txt")]
+/// use driveline::configure::Configure;
+/// use driveline::governor::{SymmetricLimit, SymmetricLimitConfig};
+/// // the same part of the same machine in two numbers
+/// const SINGLE: SymmetricLimitConfig<f32> = <SymmetricLimit as Configure<Roll, f32>>::CONFIG;
+/// const FIXED: SymmetricLimitConfig<Fixed> = <SymmetricLimit as Configure<Roll, Fixed>>::CONFIG;
+/// assert_eq!(SINGLE.torque, 550.0);
+/// assert!((FIXED.torque.to_f64() * Roll::BASES.torque - 550.0).abs() < 1e-4);
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no constants for the machine `{M}` in `{N}`",
     note = "what has no sensible default is a trait of its own: see the table of parts in `driveline::configure`"

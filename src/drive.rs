@@ -60,6 +60,16 @@ use crate::observer::Observer;
 use crate::sample::{Command, Estimate, Sample};
 
 /// Plausibility limits of a sample.
+///
+/// ```
+#[doc = include_str!("roll.txt")]
+/// use driveline::drive::Limits;
+/// type RollDrive = Drive<f32, TwoMassObserver, SpeedLoop>;
+/// static CONFIG: ConfigOf<RollDrive> = RollDrive::configure::<Roll>();
+/// // 1.67 of the torque limit; half a turn at 1.2 of rated speed: pi/180 s are 174 ticks
+/// let Limits { torque, max_coast, .. } = CONFIG.limits;
+/// assert_eq!((torque, max_coast), (1.67 * 550.0, 174));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Limits<N: Number> {
@@ -81,6 +91,18 @@ pub struct Limits<N: Number> {
 }
 
 /// The constants of a drive.
+///
+/// ```
+#[doc = include_str!("roll.txt")]
+/// type RollDrive = Drive<f32, TwoMassObserver, SpeedLoop>;
+/// static CONFIG: ConfigOf<RollDrive> = RollDrive::configure::<Roll>();
+/// // a limit that is set on site: a changed copy, for as many ticks as it is wanted
+/// let mut config = CONFIG;
+/// config.governor.torque_limit = 200.0;
+/// let mut drive = RollDrive::new(&config, 0);
+/// let most = (0..10_000).map(|_| drive.tick(&config, &Sample::si::<Roll>(0, 0.0, 100.0)).torque).fold(0.0, f32::max);
+/// assert_eq!(most, 200.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Config<N: Number, O, G = (), F = (), B = ()> {
@@ -97,6 +119,20 @@ pub struct Config<N: Number, O, G = (), F = (), B = ()> {
 }
 
 /// The state of a drive.
+///
+/// ```
+#[doc = include_str!("roll.txt")]
+/// use driveline::fault::Faults;
+/// type RollDrive = Drive<f32, TwoMassObserver, SpeedLoop>;
+/// static CONFIG: ConfigOf<RollDrive> = RollDrive::configure::<Roll>();
+/// let mut drive = RollDrive::new(&CONFIG, 0);
+/// // brake closed, 40 N m in the shaft; brake open; then ticks without an angle, until the torque is taken away
+/// assert_eq!(drive.hold(&CONFIG, 0, 40.0).torque, 40.0);
+/// assert!(drive.tick(&CONFIG, &Sample::si::<Roll>(0, 40.0, 0.0)).faults.is_none());
+/// let lost = (1..).find(|_| drive.coast(&CONFIG, 40.0, 0.0).faults.contains(Faults::ANGLE_LOST));
+/// assert_eq!(lost, Some(CONFIG.limits.max_coast + 2)); // the first beyond the limit still coasts
+/// assert_eq!(drive.coast(&CONFIG, 40.0, 0.0).torque, 0.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 // In this order: the compiler's own puts a measurement's tables in front.

@@ -6,6 +6,16 @@ use crate::fault::Faults;
 ///
 /// Fixed point has torque and speed per unit of [`Bases::torque`](crate::settings::Bases::torque) and
 /// [`Bases::speed`](crate::settings::Bases::speed).
+///
+/// ```
+#[doc = include_str!("roll.txt")]
+/// // a quarter of a turn, 30 N m in the last tick, 100 rad/s wanted: in SI units whatever the number
+/// let sample = Sample::<Fixed>::si::<Roll>(1 << 30, 30.0, 100.0);
+/// assert!((sample.torque.to_f64() * Roll::BASES.torque - 30.0).abs() < 1e-4);
+/// // in floats the fields are in SI units themselves
+/// let single = Sample { angle: 1 << 30, torque: 30.0, setpoint: 100.0 };
+/// assert_eq!(Sample::<f32>::si::<Roll>(1 << 30, 30.0, 100.0), single);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Sample<N> {
@@ -20,6 +30,17 @@ pub struct Sample<N> {
 
 /// The observer's estimate at the beginning of a tick, referred to the motor; per unit of the bases of [`Sample`] in
 /// fixed point.
+///
+/// ```
+#[doc = include_str!("roll.txt")]
+/// type RollDrive = Drive<Fixed, TwoMassObserver, SpeedLoop>;
+/// static CONFIG: ConfigOf<RollDrive> = RollDrive::configure::<Roll>();
+/// // held by its brake, the shaft carries the torque that the motor gives (N m, in whatever number)
+/// let mut drive = RollDrive::new(&CONFIG, 0);
+/// drive.hold(&CONFIG, 0, Fixed::from_f64(30.0 / Roll::BASES.torque));
+/// let estimate = drive.estimate(&CONFIG).si::<Roll>();
+/// assert!((estimate.shaft_torque - 30.0).abs() < 1e-3 && estimate.load_speed == 0.0);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Estimate<N> {
@@ -35,6 +56,18 @@ pub struct Estimate<N> {
 }
 
 /// Output of a tick.
+///
+/// ```
+#[doc = include_str!("roll.txt")]
+/// use driveline::fault::Faults;
+/// type RollDrive = Drive<f32, TwoMassObserver, SpeedLoop>;
+/// static CONFIG: ConfigOf<RollDrive> = RollDrive::configure::<Roll>();
+/// let mut drive = RollDrive::new(&CONFIG, 0);
+/// // the torque report is broken: the fault is told, the drive goes on within its limit
+/// let command = drive.tick(&CONFIG, &Sample { angle: 0, torque: f32::NAN, setpoint: 100.0 });
+/// assert_eq!(command.faults, Faults::TORQUE);
+/// assert!(command.torque_si::<Roll>() > 0.0 && command.torque_si::<Roll>() <= 550.0);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Command<N> {

@@ -123,6 +123,25 @@ pub trait Family<const A: usize, const B: usize>: Machine {
 ///
 /// [`Machine::CHAIN`] ends in a rope and a lifted mass; the other members are
 /// [`Chain::hoisting`](crate::machine::Chain::hoisting).
+///
+/// ```
+/// use driveline::configure::HasLoadAndRope;
+/// use driveline::prelude::*;
+/// struct Crane;
+/// impl Machine for Crane {
+///     const CHAIN: Chain = Chain::motor(Inertia(0.35)).gear(Ratio(20.0), Efficiency(0.95)).drum(Diameter(0.5))
+///         .rope(Falls(2), Stiffness(1.2e6)).lifted(Mass(5e3));
+///     const RATING: Rating = Rating { torque: Torque(300.0), speed: Speed::rpm(1480.0), torque_limit: Torque(600.0) };
+///     const ENCODER: Encoder = Encoder::lines(1024);
+///     const RATE_HZ: u32 = 10_000;
+/// }
+/// impl HasLoadAndRope<3, 2> for Crane {
+///     const LOAD: [Mass; 2] = [Mass(500.0), Mass(8_000.0)];
+///     const ROPE: [Length; 2] = [Length(4.0), Length(16.0)];
+///     const ROPE_OF_CHAIN: Length = Length(10.0);
+/// }
+/// assert!((Crane::LOADS[1] - 2_000.0).abs() < 1e-9); // in equal ratios: sqrt(500 * 8000)
+/// ```
 pub trait HasLoadAndRope<const A: usize, const B: usize>: Machine {
     /// The least and the largest load, such as the empty hook and a tenth over the largest.
     const LOAD: [Mass; 2];

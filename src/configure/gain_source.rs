@@ -3,6 +3,14 @@
 use crate::design::{GovernorDesign, SpeedLoopDesign};
 
 /// Source of the gains of [`SpeedGovernor`](crate::governor::SpeedGovernor).
+///
+/// ```
+#[doc = include_str!("../generator_set.txt")]
+/// // by the symmetrical optimum with a factor of 2.5: k_p = J/(2.5 T_s), T_s the delays of actuator and tick
+/// const DESIGN: GovernorDesign = Set::TWO_MASS.governor(Set::RATE, Set::ACTUATOR, 2.5, FED);
+/// assert_eq!(Set::GAINS, GainSource::Governor(DESIGN));
+/// assert!((DESIGN.proportional * 2.5 * DESIGN.equivalent_delay / (4.4 + 8.0) - 1.0).abs() < 1e-9);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum GainSource {

@@ -18,6 +18,20 @@ use crate::number::{Fixed, Number, Part};
 use crate::settings::{ActuatorMonitorSettings, Bases, LoadSharingSettings, SequencerSettings, SpeedLoopSettings};
 
 /// A machine with backlash take-up, or with a slack rope.
+///
+/// ```
+#[doc = include_str!("../roll.txt")]
+/// use driveline::configure::HasBacklash;
+/// use driveline::design::BacklashTakeUpTuning;
+/// impl HasBacklash for Roll {
+///     const TAKING_UP: BacklashTakeUpTuning = BacklashTakeUpTuning {
+///         impact: 100.0, torque: 50.0, rise: 200.0, fall: 400.0, max_torque: 550.0, damping: 0.05,
+///     };
+/// }
+/// // the twist rate that an impact of 100 N m allows: over sqrt(k J_m J_l/(J_m + J_l))
+/// let impedance = (2.0e4_f64 * 0.35 * 0.48 / 0.83).sqrt();
+/// assert!((Roll::TAKE_UP.approach_speed - 100.0 / impedance).abs() < 1e-9);
+/// ```
 pub trait HasBacklash: Machine {
     /// Tuning of the take-up.
     const TAKING_UP: BacklashTakeUpTuning;
@@ -26,6 +40,16 @@ pub trait HasBacklash: Machine {
 }
 
 /// A machine whose setpoint yields to the load.
+///
+/// ```
+#[doc = include_str!("../generator_set.txt")]
+/// impl HasDroop for Set {
+///     const DROOP: f64 = 0.04;
+/// }
+/// // 4 % of 157.08 rad/s at 2546 N m
+/// const CONFIG: DroopConfig<f64> = <Droop as Configure<Set, f64>>::CONFIG;
+/// assert!((CONFIG.droop - 0.04 * 157.08 / 2546.0).abs() < 1e-8);
+/// ```
 pub trait HasDroop: Machine {
     /// Fraction of the rated speed, at rated torque.
     const DROOP: f64;
@@ -41,6 +65,15 @@ pub trait HasBarredSpeeds<const K: usize>: Machine {
 }
 
 /// A machine whose largest torque depends on the speed.
+///
+/// ```
+#[doc = include_str!("../generator_set.txt")]
+/// impl HasTorqueCurve<3> for Set {
+///     const CURVE: TorqueCurve<3> = TorqueCurve::through([[0.0, 264.0], [62.8, 1910.0], [125.7, 2838.0]]);
+/// }
+/// const CONFIG: CurveConfig<f64, 3> = <Curve<3> as Configure<Set, f64>>::CONFIG;
+/// assert!((CONFIG.max_torque(62.8) - 1910.0).abs() < 1e-9);
+/// ```
 pub trait HasTorqueCurve<const K: usize>: Machine {
     /// Largest torque against speed.
     const CURVE: TorqueCurve<K>;
@@ -66,6 +99,16 @@ pub trait HasInputShaper: Machine {
 }
 
 /// A machine that starts, runs, stops and trips.
+///
+/// ```
+#[doc = include_str!("../generator_set.txt")]
+/// use driveline::settings::SequencerSettings;
+/// impl HasSequencer for Set {
+///     // as usual, but for a crew that waits for a cold engine
+///     const SEQUENCER: SequencerSettings = SequencerSettings { start: 90.0, ..SequencerSettings::of(&Self::RATING) };
+/// }
+/// assert!((Set::SEQUENCER.overspeed - 1.1 * 157.08).abs() < 1e-3);
+/// ```
 pub trait HasSequencer: Machine {
     /// Limits of the sequencer: [`SequencerSettings::of`] the rating.
     const SEQUENCER: SequencerSettings = SequencerSettings::of(&Self::RATING);
@@ -73,6 +116,17 @@ pub trait HasSequencer: Machine {
 
 /// A machine whose torque comes from an actuator of `K` lags in a row, which reports its position: a fuel rack, a steam
 /// valve. [`Machine::ACTUATOR`] has to allow for their sum.
+///
+/// ```
+#[doc = include_str!("../generator_set.txt")]
+/// impl HasActuator<1> for Set {
+///     const LAGS: [f64; 1] = [0.02];
+///     const TORQUE_DELAY: f64 = 0.0065;
+/// }
+/// // what the monitor expects after a tick of 1/2400 s: 1 - exp(-T/lag) of a step
+/// const CONFIG: ActuatorMonitorConfig<f64, 1> = <ActuatorMonitor<f64, 1> as Configure<Set, f64>>::CONFIG;
+/// assert!((CONFIG.share[0] - (1.0 - (-1.0 / 48.0_f64).exp())).abs() < 1e-12);
+/// ```
 pub trait HasActuator<const K: usize>: Machine {
     /// Lags from the command to the torque of the reported position (s).
     const LAGS: [f64; K];

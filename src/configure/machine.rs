@@ -11,6 +11,14 @@ use crate::settings::{Bases, Cycle, Gear, LoadGear, Screening};
 
 /// Rating of the motor: a rated torque, a rated speed and the torque limit, each above zero, the limit at least the
 /// rated torque. A drive whose machine breaks one of these rules is a compile error that names the field.
+///
+/// ```
+/// use driveline::configure::Rating;
+/// use driveline::machine::{Speed, Torque};
+/// const RATING: Rating = Rating { torque: Torque(300.0), speed: Speed::rpm(1480.0), torque_limit: Torque(550.0) };
+/// // 2 kg m2 at the motor to 155 rad/s by 300 N m
+/// assert!((RATING.run_up(2.0) - 2.0 * 154.99 / 300.0).abs() < 1e-4);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Rating {
@@ -113,6 +121,21 @@ impl Rating {
 /// Every default states its derivation. Name a constant to override it; constants derived from it follow. A constant
 /// that no part of the drive uses is never evaluated. Most of the 19 machines of the project's firmware, each
 /// tuned on a full simulation, keep the defaults of torque accuracy, gear and screening.
+///
+/// ```
+/// use driveline::prelude::*;
+/// struct Roll;
+/// impl Machine for Roll {
+///     const CHAIN: Chain = Chain::motor(Inertia(0.35)).shaft(Stiffness(2.0e4), Damping(0.5)).rotor(Inertia(0.48));
+///     const RATING: Rating = Rating { torque: Torque(300.0), speed: Speed(150.0), torque_limit: Torque(550.0) };
+///     const ENCODER: Encoder = Encoder::lines(2048);
+///     const RATE_HZ: u32 = 10_000;
+///     const RAMP: f64 = 40.0; // rad/s2: named, and so not that of the rating
+/// }
+/// // the others follow: the antiresonance of the two masses, sqrt(k/J_l), and 0.4 of it for the speed loop
+/// assert!((Roll::TWO_MASS.antiresonance() - (2.0e4_f64 / 0.48).sqrt()).abs() < 1e-9);
+/// assert!((Roll::SPEED_LOOP.bandwidth - 0.4 * Roll::TWO_MASS.antiresonance()).abs() < 1e-9);
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no machine",
     note = "implement `Machine` for a type of your own, with `CHAIN`, `RATING`, `ENCODER` and `RATE_HZ`, and name it: \

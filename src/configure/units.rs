@@ -5,6 +5,17 @@ use crate::number::{Fixed, Number};
 use crate::sample::{Command, Estimate, Sample};
 
 /// A number type for the quantities of a machine: SI units in floats, per unit of its bases in fixed point.
+///
+/// ```
+#[doc = include_str!("../roll.txt")]
+/// use driveline::configure::Units;
+/// // generic code of one's own in newton metres: half of rated torque as a command
+/// fn half<M: Machine, N: Units>() -> N {
+///     N::from_torque::<M>(0.5 * M::RATING.torque.0 as f32)
+/// }
+/// assert_eq!(half::<Roll, f32>(), 150.0);
+/// assert!((half::<Roll, Fixed>().to_torque::<Roll>() - 150.0).abs() < 1e-3);
+/// ```
 pub trait Units: Number {
     /// A torque (N m).
     fn from_torque<M: Machine>(torque: f32) -> Self;

@@ -7,6 +7,20 @@ use crate::number::Fixed;
 use crate::settings::PhasorSettings;
 
 /// A machine whose rotor's vibration is measured.
+///
+/// ```
+#[doc = include_str!("../roll.txt")]
+/// use driveline::balancing::{Phasors, PhasorsConfig};
+/// use driveline::configure::{Configure, HasVibration};
+/// use driveline::settings::PhasorSettings;
+/// impl HasVibration for Roll {
+///     // velocity, to 20 mm/s; the roll turns twice while the motor turns five times
+///     const VIBRATION_LIMIT: f64 = 0.02;
+///     const PHASORS: PhasorSettings = PhasorSettings { rotor_turns: 2, motor_turns: 5, ..PhasorSettings::DIRECT };
+/// }
+/// static ONE_SENSOR: PhasorsConfig<Fixed, 1> = <Phasors<1, 9> as Configure<Roll, Fixed>>::CONFIG;
+/// assert_eq!(Roll::VIBRATION_BASE, 0.04); // m/s: a sample in fixed point is per unit of it
+/// ```
 pub trait HasVibration: Machine {
     /// The rotor that is measured, and how: the motor's shaft, eight turns a block. Its
     /// [`floor`](crate::balancing::Steadiness::floor) is in the unit of the sensors, whatever the number.

@@ -20,6 +20,18 @@ use crate::machine::TwoMass;
 use crate::math::sqrt;
 
 /// How the observer looks for the flank after an open gap.
+///
+/// ```
+/// use driveline::design::{BacklashDesign, BacklashTuning, Disturbance, Encoder, Rate};
+/// use driveline::machine::{Damping, Gap, Inertia, Stiffness, TwoMass};
+/// const SLACK: TwoMass =
+///     TwoMass::new(Inertia(0.5), Inertia(0.5), Stiffness(1.0e4), Damping(0.5)).with_gap(Gap(0.02));
+/// const LOAD: Disturbance = Disturbance { torque_accuracy: 3.0, load_torque_step: 150.0, within: 10.0 };
+/// // searching gains for a whole period after the impact: 2 pi/200 s, 10,000 ticks a second
+/// const LONGER: BacklashTuning = BacklashTuning { hold: 1.0, ..BacklashTuning::USUAL };
+/// const DESIGN: BacklashDesign = SLACK.backlash_observer(Rate::hz(10_000), Encoder::lines(2048), LOAD, LONGER);
+/// assert!(DESIGN.hold.abs_diff(314) <= 1);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BacklashTuning {

@@ -6,6 +6,19 @@ use crate::machine::TwoMass;
 use crate::math::sqrt;
 
 /// Tuning of backlash take-up.
+///
+/// ```
+/// use driveline::design::{BacklashTakeUpDesign, BacklashTakeUpTuning, Rate};
+/// use driveline::machine::{Damping, Gap, Inertia, Stiffness, TwoMass};
+/// const SLACK: TwoMass =
+///     TwoMass::new(Inertia(0.5), Inertia(0.5), Stiffness(1.0e4), Damping(0.5)).with_gap(Gap(0.02));
+/// const GENTLE: BacklashTakeUpTuning = BacklashTakeUpTuning {
+///     impact: 100.0, torque: 50.0, rise: 200.0, fall: 400.0, max_torque: 550.0, damping: 0.05,
+/// };
+/// // an impact of 100 N m is one of 100/sqrt(1e4 * 0.25) = 2 rad/s; 200 N m in a period of 2 pi/200 s
+/// const DESIGN: BacklashTakeUpDesign = SLACK.take_up(Rate::hz(10_000), GENTLE);
+/// assert!((DESIGN.approach_speed - 2.0).abs() < 1e-9 && (DESIGN.slew - 6366.2).abs() < 0.1);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BacklashTakeUpTuning {

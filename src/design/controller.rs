@@ -176,6 +176,18 @@ pub(super) struct Motion {
 
 /// Observer and speed loop between the motor's angle and the torque: `u = -(Q tau + P theta_m)/D`, polynomials in
 /// `z - 1`, the constant first.
+///
+/// ```
+#[doc = include_str!("../roll.txt")]
+/// use driveline::design::{Controller, LoopObserver};
+/// // for a simulation elsewhere: u = -(Q tau + P theta)/D in powers of z - 1
+/// const CONTROLLER: Controller = LoopObserver::TwoMass(&Roll::OBSERVER).controller(&Roll::SPEED_LOOP);
+/// // D has the observer's poles p: without lags it is their product (z - p), at z = 1 that of 1 - p
+/// let (re, _) = Roll::OBSERVER.poles.iter().fold((1.0, 0.0), |(a, b), (re, im)| {
+///     (a * (1.0 - re) + b * im, b * (1.0 - re) - a * im)
+/// });
+/// assert!((CONTROLLER.denominator[0] / re - 1.0).abs() < 1e-6);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Controller {

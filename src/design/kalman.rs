@@ -5,6 +5,16 @@ use super::{Error, Matrix, doubling, eigenvalues};
 use crate::math::sqrt;
 
 /// A steady-state filter for `x+ = F x + B u + w`, `y = H x + e`, `E[w w^T] = Q`, `E[e e^T] = R`.
+///
+/// ```
+/// use driveline::design::{Kalman, Matrix};
+/// // a random walk of variance 1 a tick, measured with variance 1: P = (1 + sqrt(5))/2, K = P/(P + 1)
+/// const ONE: Matrix<1, 1> = Matrix([[1.0]]);
+/// let filter = Kalman::design(&ONE, &ONE, &ONE, &ONE)?;
+/// let golden = (1.0 + 5.0_f64.sqrt()) / 2.0;
+/// assert!((filter.prior.0[0][0] - golden).abs() < 1e-9 && (filter.gain.0[0][0] - 1.0 / golden).abs() < 1e-9);
+/// # Ok::<(), driveline::design::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Kalman<const N: usize, const M: usize> {

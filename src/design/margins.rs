@@ -6,6 +6,17 @@ use super::polynomial::Polynomial;
 use crate::math::{atan2, exp, hypot, ln, sin_cos};
 
 /// How far a loop is from instability.
+///
+/// ```
+/// use driveline::design::{Actuator, LoadFeedForward, Margins, Rate};
+/// use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
+/// const STIFF: TwoMass = TwoMass::new(Inertia(4.0), Inertia(8.0), Stiffness(5.0e7), Damping(6.0e4));
+/// const VALVE: Actuator = Actuator { delay: 0.0, lag: 0.1 };
+/// let Margins { phase, delay, crossover, .. } =
+///     STIFF.governor(Rate::hz(10_000), VALVE, 3.0, LoadFeedForward::NONE).margins(&STIFF);
+/// // the symmetrical optimum of 3: atan 3 - atan 1/3 = 53 degrees, which are a dead time of phase over crossover
+/// assert!((phase.to_degrees() - 53.13).abs() < 0.5 && (delay * crossover / phase - 1.0).abs() < 1e-6);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Margins {

@@ -5,6 +5,17 @@ use super::{Error, Matrix, RigidDesign, eigenvalues, spectral_radius};
 use crate::machine::{DrivenMechanism, Inertia, Rigid};
 
 /// The observer of a machine with a mechanism.
+///
+/// ```
+/// use driveline::design::{Disturbance, Encoder, MechanismDesign, Rate};
+/// use driveline::machine::{CrankSlider, DrivenMechanism, Inertia, Length, Mass, Mechanism};
+/// const RAM: CrankSlider = CrankSlider::massless_rod(Length(0.1), Length(0.6), Inertia(1.0), Mass(40.0));
+/// const PRESS: DrivenMechanism = DrivenMechanism::new(Inertia(2.0), &Mechanism::slider_crank(&RAM), 1, 1);
+/// const LOAD: Disturbance = Disturbance { torque_accuracy: 1.0, load_torque_step: 50.0, within: 1.0 };
+/// // one set of gains, stable at the lightest and at the heaviest angle
+/// const DESIGN: MechanismDesign = PRESS.observer(Rate::hz(1000), Encoder::lines(2048), LOAD);
+/// assert!(DESIGN.spectral_radii.iter().all(|radius| *radius < 1.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct MechanismDesign {

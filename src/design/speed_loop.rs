@@ -18,6 +18,15 @@ use crate::machine::TwoMass;
 use crate::math::sqrt;
 
 /// How the speed loop is to behave.
+///
+/// ```
+/// use driveline::design::{Rate, SpeedLoopTuning};
+/// use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
+/// const TWO: TwoMass = TwoMass::new(Inertia(0.5), Inertia(0.5), Stiffness(1.0e4), Damping(0.0));
+/// // a third of the antiresonance, sqrt(1e4/0.5) = 141.4 rad/s
+/// const CALM: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.3, ..SpeedLoopTuning::of(&TWO) };
+/// assert!((TWO.speed_loop(Rate::hz(10_000), CALM).bandwidth - 42.43).abs() < 0.01);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpeedLoopTuning {

@@ -13,6 +13,15 @@ use crate::settings::Screening;
 const LONGEST: u32 = 30_000;
 
 /// Limits of a drive's supervision, in SI units.
+///
+/// ```
+#[doc = include_str!("../roll.txt")]
+/// use driveline::design::Supervision;
+/// // twice the torque limit in the shaft, a quarter over rated speed, a hundredth of a turn behind the brake
+/// const LIMITS: Supervision = Roll::SUPERVISION;
+/// assert_eq!((LIMITS.shaft_torque, LIMITS.speed), (1100.0, 187.5));
+/// assert!((LIMITS.slip.to_degrees() - 3.6).abs() < 1e-9);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Supervision {

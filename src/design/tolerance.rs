@@ -76,6 +76,14 @@ impl Spread {
 }
 
 /// How far machine and motor may differ from their description.
+///
+/// ```
+/// use driveline::design::{Spread, Tolerance};
+/// // as usual, and a load between the empty hook and a tenth more than the chain has
+/// const LIFT: Tolerance = Tolerance { load_inertia: Spread::between(0.05, 1.1), ..Tolerance::USUAL };
+/// // inertias and stiffness at two ends each; the load at 0.05, and 22 times that in steps of two at most: six points
+/// assert_eq!((Tolerance::USUAL.machines(), LIFT.machines()), (2 * 2 * 2, 2 * 6 * 2));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Tolerance {

@@ -132,6 +132,14 @@ impl Encoder {
 }
 
 /// How the machine is disturbed, in figures that a commissioning engineer has.
+///
+/// ```
+/// use driveline::design::{Disturbance, Rate};
+/// // a hoist whose load comes within a second; its torque is known to 2 N m over a millisecond: the mean of ten ticks
+/// const USUAL: Disturbance = Disturbance { torque_accuracy: 0.0, load_torque_step: 100.0, within: 1.0 };
+/// const HOIST: Disturbance = USUAL.torque_over(2.0, 1e-3, Rate::hz(10_000));
+/// assert!((HOIST.torque_accuracy - 2.0 * 10.0_f64.sqrt()).abs() < 1e-9);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Disturbance {

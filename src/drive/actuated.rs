@@ -19,6 +19,22 @@ use crate::sample::{Command, Estimate, Sample};
 ///
 /// It is a [`Composition`] as the drive inside is, and takes its place in an [`Axis`](crate::axis::Axis). The machine
 /// [`HasActuator`].
+///
+/// ```
+#[doc = include_str!("../generator_set.txt")]
+/// impl HasSequencer for Set {}
+/// impl HasActuator<1> for Set {
+///     const LAGS: [f64; 1] = [0.02];
+///     const TORQUE_DELAY: f64 = 0.0065;
+/// }
+/// type SetDrive = Actuated<Drive<f32, TwoMassObserver, SpeedGovernor<(), (), SymmetricLimit, Sequencer>>, 1, 32>;
+/// static CONFIG: ConfigOf<SetDrive> = SetDrive::configure::<Set>();
+/// let mut drive = SetDrive::new(&CONFIG, 0);
+/// drive.request(RunRequest::Start);
+/// // the rack sticks: the governor is in its limit, the sample reports nothing
+/// let stuck = |_| { drive.tick(&CONFIG, &Sample::si::<Set>(0, 0.0, 157.08)); drive.state() };
+/// assert_eq!((0..2_400).map(stuck).last(), Some(RunState::Tripped(Trip::Actuator))); // within a second
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 // Not logged: it holds the drive, whose estimates are.

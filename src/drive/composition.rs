@@ -147,6 +147,13 @@ macro_rules! own {
 pub(crate) use {handed_on, own};
 
 /// The constants of a drive, from its type.
+///
+/// ```
+#[doc = include_str!("../roll.txt")]
+/// type RollDrive = Drive<f32, TwoMassObserver, SpeedLoop>;
+/// static CONFIG: ConfigOf<RollDrive> = RollDrive::configure::<Roll>();
+/// assert_eq!(CONFIG.governor.ramp, 150.0 / 2.0 / 10_000.0); // rated speed in two seconds, in a tick
+/// ```
 pub type ConfigOf<D> = <D as Composition>::Config;
 
 /// The constants of a drive's observer, from the type of the drive.

@@ -45,6 +45,20 @@ struct Block<D: Composition, const K: usize> {
 ///
 /// It records ticks, [`Drive::hold`](super::Drive::hold) and [`Drive::engage`](super::Drive::engage). A change by
 /// [`Recorded::drive_mut`] or [`Drive::switch`](super::Drive::switch) begins a new record.
+///
+/// ```
+#[doc = include_str!("../roll.txt")]
+/// use driveline::drive::{Composition, Recorded};
+/// use driveline::fault::Faults;
+/// type RollDrive = Drive<f32, TwoMassObserver, SpeedLoop>;
+/// static CONFIG: ConfigOf<RollDrive> = RollDrive::configure::<Roll>();
+/// let mut drive = Recorded::<RollDrive, 16>::new(&CONFIG, 0);
+/// let commands: Vec<_> = (0..20).map(|_| drive.tick(&CONFIG, &Sample::si::<Roll>(0, 0.0, 100.0))).collect();
+/// // on the desk: the last of these ticks again, to the bit
+/// let mut again = Vec::new();
+/// drive.replay(&CONFIG, |command| again.push(command));
+/// assert!(again.len() >= 16 && commands.ends_with(&again) && drive.reason() == Faults::NONE);
+/// ```
 #[derive(Clone, Copy, Debug)]
 // Not logged: a telemetry frame holds single ticks.
 pub struct Recorded<D: Composition, const K: usize = 64> {
