@@ -95,6 +95,22 @@ use crate::number::Number;
 use crate::sample::Estimate;
 
 /// A measurement of the speed's fluctuation, advanced once a tick.
+///
+/// ```
+/// use driveline::fluctuation::{CycleConfig, Extremes, Fluctuation, Waveform, WaveformConfig};
+/// use driveline::sample::Estimate;
+/// use driveline::settings::{Bases, Cycle};
+/// // a pair is one measurement, each with its constants
+/// const CYCLE: CycleConfig = CycleConfig::new(Cycle::TURN, 1e-4, Bases::SI);
+/// const CONFIG: (CycleConfig, WaveformConfig) = (CYCLE, WaveformConfig::new::<64>(CYCLE, 1));
+/// let mut both = <(Extremes<f64>, Waveform<64, f64>)>::default();
+/// for tick in 0..2_000_u32 {
+///     // 200 ticks a turn
+///     let estimate = Estimate { motor_speed: 314.16, ..Estimate::default() };
+///     both.measure(&CONFIG, tick.wrapping_mul(21_474_836), 0.0, &estimate);
+/// }
+/// assert!(both.0.cycles() >= 5 && both.1.take().is_some());
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` measures no fluctuation in `{N}`",
     note = "the order is `Drive<Number, Observer, Governor, Fluctuation, Balancer>`, with `()` for a part left out"

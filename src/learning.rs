@@ -28,6 +28,15 @@ pub use run_up::{RunUp, RunUpConfig};
 pub use torque_constant::{TorqueCalibration, TorqueConstant, TorqueConstantConfig};
 
 /// What an update of a learner has done.
+///
+/// ```
+/// use driveline::learning::{Finding, GearLoss, GearLossConfig};
+/// const CONFIG: GearLossConfig = GearLossConfig::new(300.0, 150.0, [0.8, 0.99], 0.01);
+/// let mut learner = GearLoss::new(&CONFIG, 0.05);
+/// // nothing to be learnt at a standstill, nor from one direction alone
+/// let findings = [0.0, 100.0].map(|speed| (0..500).all(|_| learner.update(&CONFIG, 100.0, speed) == Finding::None));
+/// assert_eq!(findings, [true, true]);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Finding {

@@ -6,6 +6,20 @@ use super::WoehlerLine;
 pub(super) const LONGEST: usize = 259;
 
 /// Cycles, times and residue up to a moment.
+///
+/// ```
+/// use driveline::fatigue::{Rainflow, TorqueClasses, WoehlerLine};
+/// use driveline::{fluctuation::Fluctuation, sample::Estimate};
+/// const CLASSES: TorqueClasses<f32> = TorqueClasses::<f32>::new::<64>(640.0).with_period(1e-3);
+/// let mut rainflow = Rainflow::<64, f32>::default();
+/// for tick in 0..4000 {
+///     let shaft_torque = if tick / 20 % 2 == 0 { 310.0 } else { -290.0 };
+///     rainflow.measure(&CLASSES, 0, 0.0, &Estimate { shaft_torque, ..Estimate::default() });
+/// }
+/// let counts = rainflow.counts(&CLASSES);
+/// // half of 4 s above 300 N m; 310 N m over a rated torque of 155
+/// assert!((counts.time_above(300.0) - 2.0).abs() < 1e-9 && (counts.amplification(155.0) - 2.0).abs() < 1e-6);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Counts<const CLASSES: usize> {

@@ -14,6 +14,20 @@ const BEFORE: [i8; 3] = [-2, -1, 0];
 /// A tick without a reversal does one step of the four-point method, and a reversal needs one and a half of them on
 /// average. So none is lost where reversals are three ticks apart. Closer ones wait, 255 at most; [`Counts::lost`]
 /// counts the ticks at which there was no place. A torque that is NaN is left out.
+///
+/// ```
+/// use driveline::fatigue::{Rainflow, TorqueClasses};
+/// use driveline::{fluctuation::Fluctuation, sample::Estimate};
+/// // 64 classes of 20 N m; ten swings between -290 and 310 N m: 600 N m, which are 30 classes
+/// const CLASSES: TorqueClasses<f32> = TorqueClasses::<f32>::new::<64>(640.0);
+/// let mut rainflow = Rainflow::<64, f32>::default();
+/// for tick in 0..400 {
+///     let shaft_torque = if tick / 20 % 2 == 0 { 310.0 } else { -290.0 };
+///     rainflow.measure(&CLASSES, 0, 0.0, &Estimate { shaft_torque, ..Estimate::default() });
+/// }
+/// // the first and the last half cycle wait in the residue
+/// assert_eq!(rainflow.counts(&CLASSES).cycles()[30], 9);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 // In this order, the tables last: what stands behind them is beyond the reach of a load.

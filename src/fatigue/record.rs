@@ -11,6 +11,21 @@ use crate::parameters::Parameters;
 ///
 /// It holds the closed cycles of all counts that were added. The residue of the present count stays on the tick until
 /// [`LifeRecord::close`]. A largest torque beyond the classes means that the damage is too small.
+///
+/// ```
+/// use driveline::fatigue::{LifeRecord, Rainflow, TorqueClasses, WoehlerLine};
+/// use driveline::{fluctuation::Fluctuation, sample::Estimate};
+/// const CLASSES: TorqueClasses<f32> = TorqueClasses::<f32>::new::<64>(640.0);
+/// const STEEL: WoehlerLine = WoehlerLine { knee: 300.0, cycles: 1.0e6, slope: 5.0, below: 9.0 };
+/// let (mut life, mut rainflow) = (LifeRecord::default(), Rainflow::<64, f32>::default());
+/// for tick in 0..40_000 {
+///     let shaft_torque = if tick / 20 % 2 == 0 { 310.0 } else { -290.0 };
+///     rainflow.measure(&CLASSES, 0, 0.0, &Estimate { shaft_torque, ..Estimate::default() });
+/// }
+/// // 1000 cycles at the knee of a million, the last two still open; kept over a power cut, the count goes on from none
+/// life.take(&mut rainflow, &CLASSES, &STEEL, 500.0);
+/// assert!((life.damage / 1e-3 - 1.0).abs() < 3e-3 && (life.remaining() - 0.999).abs() < 1e-5);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LifeRecord {

@@ -51,6 +51,21 @@ struct Mark<N> {
 
 /// The speed without its ripple, renewed `SEGMENTS` times a cycle: a power of two from 4 on, no segment longer than a
 /// quarter of a turn.
+///
+/// ```
+/// use driveline::fluctuation::{CycleMean, CycleMeanConfig, Fluctuation};
+/// use driveline::{sample::Estimate, settings::{Bases, Cycle}};
+/// const CONFIG: CycleMeanConfig<f64> = CycleMeanConfig::<f64>::new::<8>(Cycle::TURN, 1e-4, Bases::SI);
+/// let (mut mean, mut phi) = (CycleMean::<8, f64>::default(), 0.0_f64);
+/// for _ in 0..4_000 {
+///     let motor_speed = 150.0 * (1.0 + 0.02 * phi.sin());
+///     phi += 1e-4 * motor_speed;
+///     let angle = ((phi / core::f64::consts::TAU).fract() * 4_294_967_296.0) as u32;
+///     mean.measure(&CONFIG, angle, 0.0, &Estimate { motor_speed, ..Estimate::default() });
+/// }
+/// // the mean by time of such a ripple: 150 sqrt(1 - 0.02^2)
+/// assert!(mean.steady_speed().is_some_and(|speed| (speed - 149.97).abs() < 0.02));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CycleMean<const SEGMENTS: usize, N = f32> {

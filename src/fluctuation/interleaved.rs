@@ -8,6 +8,25 @@ use super::{Extremes, Fluctuation, Ranked, Summed, Waveform, WaveformConfig};
 use crate::sample::Estimate;
 
 /// [`Waveform`] and [`Extremes`] of the same cycle, at less than the cost of the pair.
+///
+/// ```
+/// use driveline::fluctuation::{CycleConfig, Fluctuation, Interleaved, WaveformConfig};
+/// use driveline::{sample::Estimate, settings::{Bases, Cycle}};
+/// const CONFIG: WaveformConfig = WaveformConfig::new::<32>(CycleConfig::new(Cycle::TURN, 1e-4, Bases::SI), 4);
+/// let (mut both, mut phi) = (Interleaved::<32, f64>::default(), 0.0_f64);
+/// for _ in 0..4_000 {
+///     let motor_speed = 150.0 * (1.0 + 0.02 * phi.sin());
+///     phi += 1e-4 * motor_speed;
+///     let angle = ((phi / core::f64::consts::TAU).fract() * 4_294_967_296.0) as u32;
+///     both.measure(&CONFIG, angle, 0.0, &Estimate { motor_speed, ..Estimate::default() });
+/// }
+/// // two measurements of one ripple of 4 %
+/// let turn = both.extremes().reading(&CONFIG.cycle).map(|turn| turn.motor.delta);
+/// let four = both.waveform_mut().take().and_then(|window| window.ripple(&CONFIG, 4).ok());
+/// for delta in [turn, four.map(|ripple| ripple.motor.delta)] {
+///     assert!(delta.is_some_and(|delta| (delta - 0.04).abs() < 1e-3));
+/// }
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Interleaved<const BINS: usize, N: Summed + Ranked = f32> {

@@ -18,6 +18,14 @@ use super::{Bin, CycleConfig, Ripple, Summed, WaveformConfig, Window};
 use crate::math::sqrt;
 
 /// Two masses and their shaft, referred to the motor.
+///
+/// ```
+/// use driveline::fluctuation::Drivetrain;
+/// use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
+/// // from the machine of the design
+/// const MILL: TwoMass = TwoMass::new(Inertia(0.5), Inertia(0.25), Stiffness(1.0e4), Damping(2.0));
+/// assert_eq!(Drivetrain::of(&MILL).load_inertia, 0.25);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Drivetrain {

@@ -26,6 +26,26 @@ pub struct SegmentEnd {
 /// Least squares of a mechanism, in `P` unknowns: `4 K + 3` for K orders of inertia and of torque.
 ///
 /// Takes `8 P^2` bytes. A segment is a part of a turn, such as a sixty-fourth.
+///
+/// ```
+/// use core::f64::consts::TAU;
+/// use driveline::learning::{MechanismFit, SegmentEnd};
+/// // a flywheel of 3 kg m2 with 5 N m of friction: a turn at 10 rad/s, a turn up to 20, a turn there
+/// let mut fit = MechanismFit::<7>::default();
+/// let turns = [[10.0, 10.0], [10.0, 20.0], [20.0, 20.0]];
+/// for (turn, [from, to]) in turns.into_iter().enumerate() {
+///     for k in 0..64 {
+///         let [a, b] = [k, k + 1].map(|k| k as f64 / 64.0).map(|part| SegmentEnd {
+///             angle: (turn as f64 + part) * TAU,
+///             speed: from + (to - from) * part,
+///         });
+///         fit.segment(&a, &b, 1.5 * (b.speed.powi(2) - a.speed.powi(2)) + 5.0 * (b.angle - a.angle));
+///     }
+/// }
+/// let learnt = fit.mechanism().ok_or("one speed alone")?;
+/// assert!((learnt.mechanism.mean_inertia().0 - 3.0).abs() < 1e-6 && (learnt.friction - 5.0).abs() < 1e-6);
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct MechanismFit<const P: usize> {

@@ -1,6 +1,15 @@
 //! What learners have found, and how far it may be from the data sheet.
 
 /// What the learners have found. With the feature `parameters` it is a field of one's own `Parameters`, or all of them.
+///
+/// ```
+/// use driveline::learning::{GearLoss, GearLossConfig, Learnt};
+/// const CONFIG: GearLossConfig = GearLossConfig::new(300.0, 150.0, [0.8, 0.99], 0.01);
+/// // from flash: where it is out of bounds, as on another machine, it is moved to the end: 80 % have 0.36/1.64
+/// let kept = Learnt { friction: 0.9, ..Learnt::default() };
+/// let most = 0.36 / 1.64;
+/// assert!((GearLoss::new(&CONFIG, kept.friction).friction() - most).abs() < 1e-6);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Learnt {

@@ -75,6 +75,22 @@ impl RunUpConfig {
 }
 
 /// Inertia of the whole drivetrain at the motor, learnt.
+///
+/// ```
+/// use driveline::learning::{RunUp, RunUpConfig};
+/// const CONFIG: RunUpConfig = RunUpConfig::new(300.0, 150.0, [0.5, 4.0], 0.01);
+/// let mut learner = RunUp::new(&CONFIG, 1.0);
+/// // 2 kg m2 between 40 and 140 rad/s at 25 rad/s2, 60 N m of load, a hundred updates a second
+/// let mut speed = 40.0_f32;
+/// for target in [40.0, 140.0, 40.0, 140.0, 40.0] {
+///     for _ in 0..600 {
+///         let step = (target - speed).clamp(-0.25, 0.25);
+///         speed += step;
+///         learner.update(&CONFIG, 60.0 + 2.0 * step / 0.01, speed);
+///     }
+/// }
+/// assert!(learner.is_learnt() && (learner.inertia() - 2.0).abs() < 0.02);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RunUp {

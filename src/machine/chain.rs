@@ -10,6 +10,15 @@ use super::{Damping, Efficiency, Error, Gap, Inertia, Ratio, Stiffness};
 pub const CAPACITY: usize = 16;
 
 /// A shaft or rope of a chain, referred to the motor.
+///
+/// ```
+/// use driveline::machine::{Chain, Damping, Efficiency, Inertia, Ratio, Shaft, Stiffness};
+/// // behind a gear of 5 a stiffness is 25 times smaller at the motor
+/// const ROLL: Chain = Chain::motor(Inertia(0.4)).gear(Ratio(5.0), Efficiency(0.97))
+///     .shaft(Stiffness(5.0e5), Damping(10.0)).rotor(Inertia(12.0));
+/// let Shaft { stiffness, efficiency, .. } = ROLL.shafts()[0];
+/// assert!((stiffness - 2.0e4).abs() < 1e-9 && (efficiency - 0.97).abs() < 1e-12);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Shaft {

@@ -4,6 +4,14 @@ use super::error::positive;
 use super::{Chain, Error, Inertia};
 
 /// A machine that turns as one, referred to the motor: `J omega' = tau_m - tau_L`.
+///
+/// ```
+/// use driveline::machine::{Chain, Damping, Efficiency, Inertia, Ratio, Rigid, Stiffness};
+/// const SPINDLE: Chain = Chain::motor(Inertia(0.02)).shaft(Stiffness(4.0e5), Damping(1.0)).rotor(Inertia(0.01))
+///     .gear(Ratio(2.0), Efficiency(0.98)).rotor(Inertia(0.04));
+/// const WHOLE: Rigid = SPINDLE.rigid();
+/// assert!((WHOLE.inertia - (0.02 + 0.01 + 0.04 / 4.0)).abs() < 1e-15);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Rigid {

@@ -47,6 +47,17 @@ pub struct Joint {
 /// Losses are as in a [`Chain`]: each shaft has the efficiency of its gears, and a branch is reached through the shafts
 /// of the tree between the motor and its mass. They count in the torque of the weights, and in inertias and stiffnesses
 /// where the first chain begins with [`starting`](Chain::starting) or [`braking`](Chain::braking).
+///
+/// ```
+/// use driveline::machine::{Chain, Damping, Inertia, Ratio, Stiffness, Train};
+/// // one motor of 0.5 kg m2 turns two equal rotors through a shaft each
+/// const HALF: Chain = Chain::motor(Inertia(0.25)).shaft(Stiffness(5.0e3), Damping(0.0)).rotor(Inertia(0.25));
+/// const PAIR: Train = Train::of(HALF).branch(0, Ratio(1.0), HALF);
+/// // in opposition, sqrt(k/J), which the motor does not feel; and both against the motor, sqrt(2) of that
+/// let modes = PAIR.modes();
+/// let [opposed, common] = [0, 1].map(|k| modes.resonances()[k].frequency);
+/// assert!((opposed - 141.42).abs() < 0.01 && (common - 200.0).abs() < 1e-6);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Train {

@@ -9,11 +9,27 @@ use super::{GAIN_SHIFT, INNOVATION_SHIFT, Number, SPEED_SHIFT, TURN_SHIFT};
 ///
 /// A state beyond +-1 is reported, and limited to +-2 ([`Number::saturated`]); the bits above are headroom for the sums
 /// of a tick.
+///
+/// ```
+/// use driveline::number::Fixed;
+/// // 275 N m of a base of 1100 N m: a quarter, in 2^28 to the base
+/// let torque = Fixed::from_f64(275.0 / 1100.0);
+/// assert_eq!(torque.to_bits(), 1 << 26);
+/// assert_eq!((torque + torque).to_f64() * 1100.0, 550.0);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Fixed(i32);
 
 /// A factor in fixed point: a fraction of 2^32, from -1/2 to just under 1/2.
+///
+/// ```
+/// use driveline::number::{Coefficient, Fixed, Number};
+/// // a factor of 0.3 to 2^-32; a half and more has no place
+/// let Some(factor) = Coefficient::from_f64(0.3) else { unreachable!() };
+/// assert!((Fixed::ONE.times(factor).to_f64() - 0.3).abs() < 1e-8);
+/// assert_eq!(Coefficient::from_f64(0.5), None);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Coefficient(i32);

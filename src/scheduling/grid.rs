@@ -5,6 +5,15 @@ use crate::number::{Interpolate, Weight};
 const RISING: &str = "an axis of a gain schedule needs two points or more, each above the last and finite";
 
 /// Values of a scheduling variable at the points of a grid.
+///
+/// ```
+/// use driveline::scheduling::{Axis, Schedule};
+/// // gains at two loads and two lengths of rope, and in the middle of the four
+/// const LOAD: Axis<2> = Axis::new([1.0, 3.0]);
+/// const ROPE: Axis<2> = Axis::new([10.0, 20.0]);
+/// const GAIN: Schedule<f64, 2, 2> = Schedule::new(LOAD, ROPE, [[1.0, 2.0], [3.0, 8.0]]);
+/// assert_eq!((GAIN.at(2.0, 15.0), GAIN.at(9.0, 20.0)), (14.0 / 4.0, 8.0)); // beyond an end as at the end
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Axis<const K: usize> {

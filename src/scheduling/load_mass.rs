@@ -39,6 +39,15 @@ impl LoadMassConfig {
 }
 
 /// Mass of a lifted load (kg).
+///
+/// ```
+/// use driveline::scheduling::{LoadMass, LoadMassConfig};
+/// // 0.02 m a radian, weighed within 0.2 s, twenty times a second: 980.665 N m are 5 t
+/// const CONFIG: LoadMassConfig = LoadMassConfig::new(0.02, 0.2, 0.05, [500.0, 8_000.0]);
+/// let mut load = LoadMass::new(&CONFIG, 500.0);
+/// (0..60).for_each(|_| { load.update(&CONFIG, 980.665); });
+/// assert!((load.mass() - 5_000.0).abs() < 1.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadMass {

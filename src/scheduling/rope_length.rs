@@ -4,6 +4,17 @@
 ///
 /// The angle wraps within a turn; between two updates the motor may turn further. The whole turns between them are
 /// those of the speed, whose mean must be right to half a turn.
+///
+/// ```
+/// use driveline::scheduling::RopeLength;
+/// // 12 m of rope, 0.02 m a radian; a second up at 100 rad/s, looked at twenty times: 5 rad each
+/// let mut rope = RopeLength::new(0.02, 12.0, 0);
+/// for look in 1..=20 {
+///     let turns = 5.0 * look as f64 / core::f64::consts::TAU;
+///     rope.update((turns.fract() * 4_294_967_296.0) as u32, 100.0, 0.05);
+/// }
+/// assert!((rope.length() - (12.0 - 0.02 * 100.0)).abs() < 1e-4);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RopeLength {

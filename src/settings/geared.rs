@@ -17,6 +17,13 @@ const FIXED: &str = "the efficiency of the gear must be above 0.58 in fixed poin
 const LOAD_FIXED: &str = "the efficiency of the gear must be above 0.5 in fixed point, driven above 0.67";
 
 /// A gear with losses, as an observer has to know it.
+///
+/// ```
+/// use driveline::settings::Gear;
+/// // a worm of 80 %: friction of (1 - eta^2)/(1 + eta^2) of the torque
+/// const WORM: Gear = Gear { efficiency: 0.8, inertia: 0.35, deadband: 0.01 };
+/// assert!((WORM.friction() - 0.36 / 1.64).abs() < 1e-12);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Gear {

@@ -5,6 +5,13 @@ use crate::balancing::{PhasorsConfig, Steadiness};
 use crate::number::{Fixed, Number};
 
 /// The rotor that is measured, and how.
+///
+/// ```
+/// use driveline::settings::PhasorSettings;
+/// // mains of 50 Hz in the cable of a rotor of 49 turns a second: a beat lasts 49 turns
+/// let measured = PhasorSettings::DIRECT.over_whole_beats(50.0, 49.0);
+/// assert!((PhasorSettings::DIRECT.turns, measured.turns) == (8, 49) || measured.turns == 48);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PhasorSettings {

@@ -33,6 +33,16 @@ impl CombustionType {
 /// no torque.
 ///
 /// This is the mean over a working cycle.
+///
+/// ```
+/// use driveline::machine::{Combustion, CombustionType, Speed, Torque};
+/// // 400 kW at 1500 r/min, 1560 r/min without load
+/// const RATED: (Speed, Torque) = (Speed::rpm(1500.0), Torque(2546.0));
+/// const DIESEL: Combustion =
+///     Combustion::new(CombustionType::DirectInjection, RATED, Speed::rpm(600.0), Speed::rpm(1560.0));
+/// assert!((DIESEL.droop() - 0.04).abs() < 1e-12); // 60 of 1500
+/// assert!((DIESEL.torque(Speed::rpm(1530.0)).0 - 1273.0).abs() < 1e-9); // halfway down the governor's line
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Combustion {

@@ -40,6 +40,14 @@ impl Line {
 }
 
 /// A parabola `tau = a + b omega + c omega^2` [Wang 1989 (1-7)].
+///
+/// ```
+/// use driveline::machine::{Parabola, Speed, Torque};
+/// // a fan: with the square of the speed
+/// const FAN: Parabola =
+///     Parabola::through([(Speed(0.0), Torque(0.0)), (Speed(50.0), Torque(25.0)), (Speed(100.0), Torque(100.0))]);
+/// assert!((FAN.torque(Speed(150.0)).0 - 225.0).abs() < 1e-9);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Parabola {
