@@ -114,6 +114,24 @@ pub use task::{BalancingDesign, BalancingDesignError, BalancingFault, BalancingS
 pub use tolerance::{GRADES, Tolerance, Verdict, resultant, two_planes};
 
 /// A measurement of the rotor's unbalance, advanced once a tick.
+///
+/// ```
+/// use driveline::balancing::{Balancer, Phasors, PhasorsConfig};
+/// use driveline::settings::PhasorSettings;
+/// // a pair is one balancer: the rotor's own order and twice it, of one sensor each
+/// const TWICE: PhasorSettings = PhasorSettings { order: 2, ..PhasorSettings::DIRECT };
+/// static CONFIG: (PhasorsConfig<f32, 1>, PhasorsConfig<f32, 1>) = (
+///     PhasorsConfig::<f32, 1>::new(&PhasorSettings::DIRECT, [0.02]),
+///     PhasorsConfig::<f32, 1>::new(&TWICE, [0.02]),
+/// );
+/// let mut both = <(Phasors<1, 9>, Phasors<1, 9>)>::default();
+/// (both.0.begin(), both.1.begin());
+/// // 20 turns of 64 ticks: two whole blocks of eight turns each
+/// for tick in 1..=20 * 64_u32 {
+///     both.measure(&CONFIG, tick << 26, &([0.0], [0.0]));
+/// }
+/// assert_eq!((both.0.blocks(), both.1.blocks()), (2, 2));
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` measures no vibration in `{N}`",
     note = "the order is `Drive<Number, Observer, Governor, Fluctuation, Balancer>`, with `()` for a part left out"

@@ -24,6 +24,16 @@ pub struct LeftOut<T: Scalar, const PLANES: usize> {
 }
 
 /// Correction weights and the predicted residual.
+///
+/// ```
+/// use driveline::balancing::{Aim, Complex, Influence};
+/// // 0.3i um per gram, 4 um to take away: -4/0.3i = 13.3 g at 90 degrees
+/// let mut fan = Influence::<f64, 1, 1>::new(1, 1)?;
+/// fan.set(0, &[Complex::new(0.0, 0.3)])?;
+/// let correction = fan.correct(&[Complex::new(4.0, 0.0)], &Aim::default())?;
+/// assert!((correction.weights[0] - Complex::new(0.0, 40.0 / 3.0)).norm() < 1e-12 && correction.largest < 1e-12);
+/// # Ok::<(), driveline::balancing::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 // Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct Correction<T: Scalar, const ROWS: usize, const PLANES: usize> {

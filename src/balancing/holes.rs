@@ -16,6 +16,17 @@ pub enum CorrectionMethod {
 }
 
 /// The holes of a plane and the weights for them.
+///
+/// ```
+/// use driveline::balancing::{Complex, CorrectionMethod, Holes};
+/// // twelve holes, screws of 1, 2 and 5 g; wanted: 10 g between the first two holes
+/// let angles: Vec<f64> = (0..12).map(|hole| f64::from(hole) * 30.0_f64.to_radians()).collect();
+/// let holes = Holes { angles: &angles, weights: &[1.0, 2.0, 5.0], method: CorrectionMethod::Adding };
+/// let fitted = holes.fit(Complex::from_polar(10.0, 15.0_f64.to_radians()))?;
+/// assert_eq!(fitted.holes, [(0, 5.0), (1, 5.0)]);
+/// assert!((fitted.sum.norm() - 10.0 * 15.0_f64.to_radians().cos()).abs() < 1e-12);
+/// # Ok::<(), driveline::balancing::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 // Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct Holes<'a, T> {

@@ -56,6 +56,22 @@ const BETTER: f64 = 0.7;
 const WORTH: f64 = 0.8;
 
 /// In-run balancing of at most `ROWS` readings by `PLANES` heads.
+///
+/// ```
+/// use driveline::balancing::{Action, Complex, InRun, InRunConfig};
+/// const CONFIG: InRunConfig<f64, 1> =
+///     InRunConfig { probe: 0.01, limits: [1.0], step: 2.0, bound: 1.3, target: 0.04, forgetting: 0.8, noise: 0.005 };
+/// // a spindle of an influence that nobody knows, with an unbalance that a weight of 0.4i takes away
+/// let vibration = |weight: Complex<f64>| Complex::new(0.2, 0.7) * (weight - Complex::new(0.0, 0.4));
+/// let (mut head, mut moves) = (Complex::new(0.0, 0.0), 0);
+/// let mut rule = InRun::<f64, 1, 1>::new(CONFIG, 1, [head])?;
+/// while let Action::Set([to]) = rule.advise(&[vibration(head)], 0.0) {
+///     (head, moves) = (to, moves + u32::from(to != head));
+///     assert!(moves < 12);
+/// }
+/// assert!((head - Complex::new(0.0, 0.4)).norm() < 0.04 * 0.4);
+/// # Ok::<(), driveline::balancing::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 // Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct InRun<T: Scalar, const ROWS: usize, const PLANES: usize> {

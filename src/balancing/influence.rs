@@ -11,6 +11,16 @@ use super::scalar::{Complex, Scalar, given, real, size, square, zero};
 /// (unit of the reading per unit of the weight).
 ///
 /// A row is a sensor at a speed; the order is the user's, and the same in all runs.
+///
+/// ```
+/// use driveline::balancing::{Complex, Influence};
+/// // 4 um before, 4 + 3i um with 10 g: the plane gives 0.3 um per gram, a quarter of a turn ahead
+/// let [before, with] = [Complex::new(4.0, 0.0), Complex::new(4.0, 3.0)];
+/// let mut fan = Influence::<f64, 1, 1>::new(1, 1)?;
+/// fan.learn(0, &[before], &[with], Complex::new(10.0, 0.0))?;
+/// assert_eq!(fan.get(0, 0), Some(Complex::new(0.0, 0.3)));
+/// # Ok::<(), driveline::balancing::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 // Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct Influence<T: Scalar, const ROWS: usize, const PLANES: usize> {

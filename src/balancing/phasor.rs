@@ -16,6 +16,25 @@ use crate::fault::Faults;
 
 /// A measurement of `CHANNELS` channels that ends after `EDGES - 1` blocks, and the reading until the next one is
 /// begun.
+///
+/// ```
+/// use driveline::balancing::{Balancer, Phasors, PhasorsConfig};
+/// use driveline::settings::PhasorSettings;
+/// // one sensor of a range of 1 mm/s, eight blocks of eight turns
+/// static CONFIG: PhasorsConfig<f64, 1> = PhasorsConfig::<f64, 1>::new(&PhasorSettings::DIRECT, [1e-3]);
+/// let mut phasors = Phasors::<1, 9, f64>::default();
+/// phasors.begin();
+/// let mut ticks = 0;
+/// while !phasors.is_complete() {
+///     ticks += 1;
+///     let turn = f64::from(ticks) / 200.0; // 200 ticks a turn, 0.5 mm/s, greatest a quarter of a turn behind the zero
+///     let vibration = 0.5e-3 * (core::f64::consts::TAU * (turn - 0.25)).cos();
+///     phasors.measure(&CONFIG, ((turn % 1.0) * 4_294_967_296.0) as u32, &[vibration]);
+/// }
+/// let reading = phasors.reading(&CONFIG, 0)?;
+/// assert!((reading.phasor.amplitude() - 0.5e-3).abs() < 1e-6 && reading.phasor.im < 0.0 && reading.turns == 64);
+/// # Ok::<(), driveline::balancing::ReadingFault>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Phasors<const CHANNELS: usize, const EDGES: usize, N: Synchronous = f32> {

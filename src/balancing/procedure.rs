@@ -58,6 +58,21 @@ struct Trial<T: Scalar, const ROWS: usize> {
 }
 
 /// A procedure under way. `TRIALS` trial runs are kept: one for each plane by default.
+///
+/// ```
+/// use driveline::balancing::{Complex, Plan, Procedure, ProcedureStep, Run};
+/// // one sensor, one plane, 0.1 um left; a fan with 0.3i um per gram and 4 um of its own, at 155 rad/s
+/// let run = |weight: Complex<f64>| Run::new(&[Complex::new(0.0, 0.3) * weight + 4.0], &[155.0]);
+/// let mut field = Procedure::<f64, 1, 1>::new(Plan::usual(1, 1, 0.1))?;
+/// field.baseline(&run(Complex::new(0.0, 0.0))?)?;
+/// assert_eq!(field.next(), ProcedureStep::Trial { plane: 0 });
+/// field.trial(0, Complex::new(10.0, 0.0), &run(Complex::new(10.0, 0.0))?)?;
+/// let weights = field.correction()?.weights; // 13.3 g at 90 degrees
+/// field.installed(&weights)?;
+/// field.verified(&run(weights[0])?)?;
+/// assert_eq!(field.next(), ProcedureStep::Done);
+/// # Ok::<(), driveline::balancing::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 // Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct Procedure<T: Scalar, const ROWS: usize, const PLANES: usize, const TRIALS: usize = PLANES> {

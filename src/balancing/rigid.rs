@@ -11,6 +11,15 @@ use super::scalar::{Complex, Scalar, given, real, zero};
 const DISC: f64 = 0.2;
 
 /// Unbalance of a rigid rotor about its centre of mass.
+///
+/// ```
+/// use driveline::balancing::{Complex, RigidUnbalance};
+/// // 2 g m on either side, 0.3 m from the centre of mass, in opposition: in static balance, a couple of 1.2 g m2
+/// let two = Complex::new(2e-3_f64, 0.0);
+/// let unbalance = RigidUnbalance::of([(two, 0.3), (-two, -0.3)])?;
+/// assert!(unbalance.resultant.norm() < 1e-15 && (unbalance.couple.norm() - 1.2e-3).abs() < 1e-15);
+/// # Ok::<(), driveline::balancing::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 // Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct RigidUnbalance<T: Scalar> {

@@ -29,6 +29,17 @@ impl Motion {
 ///
 /// Its transfer is `sensitivity (i w/high) / (1 + i w/high) / (1 + i w/low)`, a high-pass below and a low-pass above,
 /// each of the first order.
+///
+/// ```
+/// use driveline::balancing::{Motion, Phasor, Sensor};
+/// // 10 mm/s at 100 rad/s are 0.1 mm and 1 m/s2
+/// const PICKUP: Sensor = Sensor::ideal(Motion::Velocity);
+/// let reading = Phasor { re: 0.01, im: 0.0 };
+/// let travel = PICKUP.motion(reading, 100.0, Motion::Displacement)?.amplitude();
+/// let acceleration = PICKUP.motion(reading, 100.0, Motion::Acceleration)?.amplitude();
+/// assert!((travel - 1e-4).abs() < 1e-9 && (acceleration - 1.0).abs() < 1e-5);
+/// # Ok::<(), driveline::balancing::SensorError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Sensor {

@@ -68,6 +68,24 @@ pub struct Look<N: VibrationNumber, const ROWS: usize, const EDGES: usize> {
 }
 
 /// A rotor that is balanced while it turns: of the machine `M`, by the head `H`, remembered by `K`.
+///
+/// ```
+#[doc = include_str!("grinder.txt")]
+/// const G2_5: Tolerance<f32> = Tolerance { grade: 2.5, mass: 140.0, speed: 77.0 };
+/// const DESIGN: BalancingDesign =
+///     BalancingDesign { rotor: G2_5, capacity: [0.02], travel: 3.0, settle: 0.3, quiet: 0.0 };
+/// let (mut drive, head) = (GrinderDrive::new(&CONFIG, 0), Head([Complex::new(0.005, 0.0)]));
+/// let mut balancing = BalancingTask::<Grinder, _, _>::new(DESIGN, head, None::<BalancingRecord<2, 1>>)?;
+/// // the rotor stands: known after 20 s without a reading; the head stays
+/// for _ in 0..200_000 {
+///     drive.tick(&CONFIG, &Sample::si::<Grinder>(0, 0.0, 0.0));
+///     drive.vibration(&CONFIG, &[0.0, 0.0]);
+///     balancing.run(&mut drive, &CONFIG)?;
+/// }
+/// assert_eq!(balancing.state(), BalancingState::OffSpeed);
+/// assert_eq!(balancing.head().0, [Complex::new(0.005, 0.0)]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 // Not logged: holds the head and the memory.
 pub struct BalancingTask<M, H, K, const ROWS: usize = 2, const PLANES: usize = 1> {

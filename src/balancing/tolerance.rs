@@ -7,6 +7,15 @@ use super::scalar::{Complex, Scalar, real, size, zero};
 pub const GRADES: [f64; 11] = [0.4, 1.0, 2.5, 6.3, 16.0, 40.0, 100.0, 250.0, 630.0, 1600.0, 4000.0];
 
 /// A rotor whose residual unbalance is judged.
+///
+/// ```
+/// use driveline::balancing::Tolerance;
+/// // a grinding wheel of 140 kg at 77 rad/s in G2.5: 2.5e-3 140/77 kg m
+/// const WHEEL: Tolerance<f64> = Tolerance { grade: 2.5, mass: 140.0, speed: 77.0 };
+/// assert!((WHEEL.permissible()? - 4.545e-3).abs() < 1e-6);
+/// assert_eq!(WHEEL.judge(1.0e-3)?.fulfils, Some(1.0)); // 0.55 mm/s
+/// # Ok::<(), driveline::balancing::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Tolerance<T> {

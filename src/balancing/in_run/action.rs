@@ -38,6 +38,19 @@ pub enum Action<T: Scalar, const PLANES: usize> {
 }
 
 /// Why in-run balancing was aborted.
+///
+/// ```
+/// use driveline::balancing::{AbortReason, Action, Complex, InRun, InRunConfig};
+/// const CONFIG: InRunConfig<f64, 1> =
+///     InRunConfig { probe: 0.01, limits: [1.0], step: 2.0, bound: 1.3, target: 0.04, forgetting: 0.8, noise: 0.005 };
+/// let rest = Complex::new(0.0, 0.0);
+/// let mut rule = InRun::<f64, 1, 1>::new(CONFIG, 1, [rest])?;
+/// // a sensor that has come off
+/// let action = rule.advise(&[Complex::new(f64::NAN, 0.0)], 0.0);
+/// assert_eq!(action, Action::Abort([rest], AbortReason::NoReading));
+/// assert_eq!(AbortReason::NoReading.to_string(), "a reading is missing or not a number");
+/// # Ok::<(), driveline::balancing::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum AbortReason {

@@ -4,6 +4,14 @@ use crate::balancing::error::Error;
 use crate::balancing::scalar::{Complex, Scalar, given, zero};
 
 /// A run: a reading for each row, and the speed it was taken at.
+///
+/// ```
+/// use driveline::balancing::{Complex, Error, Run};
+/// // two sensors at 155 rad/s; a reading that was left out is found by its row
+/// let front = Complex::from_polar(4e-6, 30.0_f64.to_radians());
+/// assert!(Run::<f64, 2>::new(&[front, front], &[155.0; 2]).is_ok());
+/// assert_eq!(Run::<f64, 2>::new(&[front], &[155.0; 2]), Err(Error::ReadingMissing { row: 1 }));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 // Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct Run<T: Scalar, const ROWS: usize> {
