@@ -70,6 +70,20 @@ use crate::number::{Part, StateOf};
 use crate::sample::Command;
 
 /// What is known of load and rope at this time, beyond what the drive finds.
+///
+/// ```
+#[doc = include_str!("adaptive/crane.txt")]
+/// type CraneDrive = Adaptive<Crane, Inner, LoadAndRope<3, 2>>;
+/// static CONFIG: ConfigOf<CraneDrive> = CraneDrive::configure();
+/// let mut drive = CraneDrive::new(&CONFIG, 0);
+/// let hold = |drive: &mut CraneDrive| (0..200).for_each(|_| { drive.hold(&CONFIG, 0, 0.0); });
+/// // at the upper limit switch, with an empty hook
+/// hold(&mut drive);
+/// drive.background(&CONFIG, &Known { rope: Some(4.0), load: Some(500.0) });
+/// hold(&mut drive);
+/// drive.background(&CONFIG, &Known::NOTHING);
+/// assert!((drive.rope() - 4.0).abs() < 1e-3);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Known {

@@ -63,6 +63,27 @@ use crate::number::Number;
 use crate::sample::Estimate;
 
 /// A controller of the motor's torque, advanced once a tick.
+///
+/// ```
+/// use driveline::{governor::Governor, number::Part, sample::Estimate};
+/// /// A governor of one's own: 20 N m s/rad on the error, nothing else. It goes where `SpeedLoop` stands in a drive.
+/// #[derive(Default)]
+/// struct Proportional(f32);
+/// impl Part<f32> for Proportional {
+///     type State = Self;
+/// }
+/// impl Governor<f32> for Proportional {
+///     type Config = ();
+///     const COMMANDS: bool = true;
+///     fn set_setpoint(&mut self, setpoint: f32) { self.0 = setpoint; }
+///     fn command(&mut self, _: &(), now: &Estimate<f32>) -> f32 { 20.0 * (self.0 - now.motor_speed) }
+///     fn permitted(&self, _: &(), _: &Estimate<f32>, torque: f32) -> f32 { torque }
+///     fn start(&mut self, _: &(), now: &Estimate<f32>, _torque: f32) { self.0 = now.motor_speed; }
+/// }
+/// let mut governor = Proportional::default();
+/// governor.set_setpoint(100.0);
+/// assert_eq!(governor.command(&(), &Estimate { motor_speed: 95.0, ..Estimate::default() }), 100.0);
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no governor in `{N}`",
     note = "the order is `Drive<Number, Observer, Governor, Fluctuation, Balancer>`, with `()` for a part left out"

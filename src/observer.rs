@@ -98,6 +98,24 @@ use crate::number::Number;
 use crate::sample::Estimate;
 
 /// An estimator of the drivetrain's state, advanced once a tick: predict, then correct or coast.
+///
+/// ```
+/// use driveline::design::{Disturbance, Encoder, Rate};
+/// use driveline::machine::{Inertia, Rigid};
+/// use driveline::observer::{Observer, RigidConfig, RigidObserver};
+/// use driveline::settings::Bases;
+/// /// A recording of angles (2^-32 turn) under one torque through any observer: the load torque at its end.
+/// fn load_torque<O: Observer<f64>>(config: &O::Config, angles: impl Iterator<Item = u32>, torque: f64) -> f64 {
+///     let mut observer = O::at_rest(config, 0, 0.0);
+///     angles.for_each(|angle| observer.step(config, angle, torque));
+///     observer.estimate(config).load_torque
+/// }
+/// const LOAD: Disturbance = Disturbance { torque_accuracy: 3.0, load_torque_step: 150.0, within: 10.0 };
+/// const CONFIG: RigidConfig<f64> = RigidConfig::<f64>::new(
+///     &Rigid::new(Inertia(0.8)).observer(Rate::hz(10_000), Encoder::lines(2048), LOAD), 0.5, Bases::SI);
+/// let held = load_torque::<RigidObserver<f64>>(&CONFIG, (0..20_000).map(|_| 0), 40.0);
+/// assert!((held - 40.0).abs() < 0.1);
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no observer in `{N}`",
     note = "the order is `Drive<Number, Observer, Governor, Fluctuation, Balancer>`, with `()` for a part left out"

@@ -13,6 +13,19 @@ use crate::sample::Estimate;
 
 /// Learners of the gear's friction and the encoder's eccentricity, and under named loads of the torque constant, the
 /// torque's offset and the motor's inertia: the last slot of an [`Adaptive`](super::Adaptive) drive.
+///
+/// ```
+#[doc = include_str!("crane.txt")]
+/// type CraneDrive = Adaptive<Crane, Inner, (), Learners>;
+/// static CONFIG: ConfigOf<CraneDrive> = CraneDrive::configure();
+/// let mut drive = CraneDrive::new(&CONFIG, 0);
+/// // it begins with the data sheet: a gear behind the shaft has no friction before it, the motor is the described one
+/// let sheet = drive.learnt();
+/// assert_eq!((sheet.torque, sheet.inertia), ([0.0, 0.0], 0.0));
+/// // from before the restart: a motor that is 5 % heavier
+/// drive.restore(&CONFIG, &driveline::learning::Learnt { inertia: 0.05, ..sheet });
+/// assert!((drive.learnt().inertia - 0.05).abs() < 1e-6);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Learners;

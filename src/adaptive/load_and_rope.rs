@@ -16,6 +16,22 @@ use crate::scheduling::{LoadMass, LoadMassConfig, RopeLength};
 ///
 /// The load is weighed by the load torque, unless it is [`Known`](super::Known). The rope is counted by the motor's
 /// turns, from the length of [`Machine::CHAIN`] on, until a [`Known`](super::Known) length comes.
+///
+/// ```
+#[doc = include_str!("crane.txt")]
+/// type CraneDrive = Adaptive<Crane, Inner, LoadAndRope<3, 2>>;
+/// static CONFIG: ConfigOf<CraneDrive> = CraneDrive::configure();
+/// let mut drive = CraneDrive::new(&CONFIG, 0);
+/// // it begins with load and rope of the chain
+/// assert!((drive.load() - 5_000.0).abs() < 1.0 && (drive.rope() - 10.0).abs() < 1e-3);
+/// // with less load the same bandwidth takes less gain: after a second with the empty hook
+/// let heavy = drive.constants().governor.proportional;
+/// for _ in 0..50 {
+///     (0..200).for_each(|_| { drive.hold(&CONFIG, 0, 0.0); });
+///     drive.background(&CONFIG, &Known { rope: None, load: Some(500.0) });
+/// }
+/// assert!((drive.load() - 500.0).abs() < 1.0 && drive.constants().governor.proportional < heavy);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadAndRope<const A: usize, const B: usize>;

@@ -80,6 +80,29 @@ pub trait VibrationSensor<N> {
 }
 
 /// A board made of parts.
+///
+/// ```
+/// use driveline::axis::{AngleSensor, Board, Enabling, Parts, TorqueOutput};
+/// use driveline::fault::Faults;
+/// // parts of one's own, or drivers of `driveline-hal`
+/// struct Encoder(u16); // of 8192 counts
+/// impl AngleSensor for Encoder {
+///     fn angle(&mut self) -> Result<u32, Faults> { Ok(u32::from(self.0) << 19) }
+/// }
+/// struct Bridge { duty: f32, on: bool }
+/// impl TorqueOutput<f32> for Bridge {
+///     fn set_torque(&mut self, torque: f32, _: u32) -> Result<(), Faults> { self.duty = torque / 2.5; Ok(()) }
+/// }
+/// struct Line;
+/// impl Enabling for Line {
+///     fn set_enabled(&mut self, _: bool) -> Result<(), Faults> { Ok(()) }
+/// }
+/// let mut board = Parts { angle: Encoder(2048), torque: Bridge { duty: 0.0, on: false }, enable: Line };
+/// assert_eq!(Board::<f32>::angle(&mut board), Ok(1 << 30)); // a quarter of a turn
+/// board.set_torque(1.25, 0)?;
+/// assert_eq!(board.torque.duty, 0.5);
+/// # Ok::<(), Faults>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 // Not logged: holds the parts of a board.
 pub struct Parts<A, T, E> {

@@ -16,6 +16,25 @@ use crate::wheel::{LOST, ToothCycle, ToothedWheelConfig};
 
 /// The cycles of a wheel's teeth, `TEETH` of them to a cycle: 58 of a 60-2 wheel that turns once in it, 116 where it
 /// turns twice.
+///
+/// ```
+/// use driveline::fluctuation::ToothWindow;
+/// use driveline::settings::{Teeth, ToothClock};
+/// use driveline::wheel::{CycleTimes, ToothedWheel, ToothedWheelConfig};
+/// // a 60-2 wheel at 100 turns a second, on a clock of 6 MHz: 1000 counts from tooth to tooth
+/// const CONFIG: ToothedWheelConfig<58> =
+///     ToothedWheelConfig::new(&Teeth::gap(60, 2), ToothClock { turns: 1, clock: 6e6, lowest_speed: 10.0 });
+/// let (mut wheel, mut window) = (ToothedWheel::<CycleTimes<58>>::default(), ToothWindow::<58>::default());
+/// for place in (0..60 * 20_u32).filter(|place| place % 60 < 58) {
+///     wheel.tooth(&CONFIG, 1000 * place);
+///     if let Some(cycle) = wheel.take() {
+///         window.add(&CONFIG, &cycle);
+///     }
+/// }
+/// let ripple = window.ripple(&CONFIG, &window.errors(&CONFIG), 4)?;
+/// assert!((ripple.mean - 628.32).abs() < 0.01 && ripple.motor.delta < 1e-6);
+/// # Ok::<(), driveline::fluctuation::Unusable>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ToothWindow<const TEETH: usize> {

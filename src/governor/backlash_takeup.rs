@@ -48,6 +48,20 @@ pub struct BacklashTakeUpConfig<N: Number, L> {
 }
 
 /// Another limit, and an open gap is closed with little torque.
+///
+/// ```
+/// use driveline::governor::{BacklashTakeUp, BacklashTakeUpConfig, Limit, SymmetricLimit, SymmetricLimitConfig};
+/// use driveline::sample::Estimate;
+/// // 50 N m in the gap; on the driven flank 1 N m a tick more, up to 550 N m
+/// const CONFIG: BacklashTakeUpConfig<f64, SymmetricLimitConfig<f64>> = BacklashTakeUpConfig {
+///     torque: 50.0, braking: -25.0, step: 1.0, fall: -2.0, max_torque: 550.0, damping: 0.0, tracking: 0.0,
+///     limit: SymmetricLimitConfig { torque: 550.0 },
+/// };
+/// let mut limit = BacklashTakeUp::<SymmetricLimit, f64>::default();
+/// let [open, driven] = [0.0, 10.0].map(|shaft_torque| Estimate { shaft_torque, ..Estimate::default() });
+/// let mut most = |estimate| (0..100).map(|_| limit.limit(&CONFIG, estimate, 400.0)).last();
+/// assert_eq!((most(&open), most(&driven)), (Some(50.0), Some(150.0)));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BacklashTakeUp<L, N = f32> {

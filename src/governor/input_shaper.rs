@@ -16,6 +16,21 @@ use crate::sample::Estimate;
 ///
 /// The ramp acts on each part. That of the governor is no steeper for the parts together, and so passes them.
 /// A stop by the setpoint takes longer by the delay; an emergency stop belongs to the brake.
+///
+/// ```
+/// use driveline::governor::{Governor, InputShaper, InputShaperConfig, SpeedLoop, SpeedLoopConfig};
+/// use driveline::sample::Estimate;
+/// // two equal parts, 50 ticks apart: half a period of an undamped swing; 1 N m s/rad shows the setpoint
+/// const LOOP: SpeedLoopConfig<f64> = SpeedLoopConfig {
+///     proportional: 1.0, damping: 0.0, reset: 0.0, torque_limit: 100.0, ramp: 100.0, filter: (),
+/// };
+/// const CONFIG: InputShaperConfig<f64, SpeedLoopConfig<f64>> =
+///     InputShaperConfig { ramp: 100.0, slot: 50, share: 0.5, governor: LOOP };
+/// let mut shaper = InputShaper::<SpeedLoop<(), f64>, 1, 2, f64>::default();
+/// shaper.set_setpoint(10.0);
+/// let torques: Vec<f64> = (0..120).map(|_| shaper.command(&CONFIG, &Estimate::default())).collect();
+/// assert_eq!((torques[10], torques[119]), (5.0, 10.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 // The order keeps the runs of words that a start clears short: for long ones the compiler calls a loop to clear them.

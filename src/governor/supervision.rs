@@ -98,6 +98,21 @@ enum Stop {
 }
 
 /// A governor under supervision.
+///
+/// ```
+#[doc = include_str!("../roll.txt")]
+/// use driveline::{fault::Faults, governor::Supervised};
+/// type Watched = Drive<f32, TwoMassObserver, Supervised<SpeedLoop>>;
+/// static CONFIG: ConfigOf<Watched> = Watched::configure::<Roll>();
+/// let mut drive = Watched::new(&CONFIG, 0);
+/// let mut tick = |drive: &mut Watched| drive.tick(&CONFIG, &Sample::si::<Roll>(0, 0.0, 100.0));
+/// assert!(tick(&mut drive).torque > 0.0);
+/// // a limit switch: no torque at a standstill, the cause stands until it is reset
+/// drive.governor_mut().stop(Faults::OVERSPEED);
+/// assert_eq!((tick(&mut drive).torque, drive.governor().cause()), (0.0, Faults::OVERSPEED));
+/// drive.governor_mut().reset();
+/// assert!(drive.governor().cause().is_none());
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Supervised<G, N = f32> {

@@ -138,6 +138,22 @@ impl Correction for Fixed {
 /// An observer behind an eccentric encoder.
 ///
 /// Its constants are those of the observer in it.
+///
+/// ```
+#[doc = include_str!("../roll.txt")]
+/// use driveline::configure::Configure;
+/// use driveline::learning::{EccentricityConfig, EccentricityObserver};
+/// use driveline::observer::Observer;
+/// const LEARNING: EccentricityConfig = EccentricityConfig::new(&Roll::OBSERVER, 0.002, 0.4);
+/// type Behind = EccentricityObserver<TwoMassObserver>;
+/// static CONFIG: driveline::observer::TwoMassConfig<f32> = <Behind as Configure<Roll, f32>>::CONFIG;
+/// let mut observer = Behind::at_rest(&CONFIG, 0, 0.0);
+/// // learnt before the restart: 1 mrad too much at the zero of the angle (2^-32 turn); 3 mrad are beyond the bound
+/// observer.restore(&LEARNING, [683_565, 0]);
+/// assert!((observer.amplitude_and_phase()[0] - 0.001).abs() < 1e-8);
+/// observer.restore(&LEARNING, [3 * 683_565, 0]);
+/// assert!((observer.amplitude_and_phase()[0] - 0.002).abs() < 1e-8);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct EccentricityObserver<O, N: Correction = f32> {

@@ -6,6 +6,28 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 /// Parameters to keep: any type with `serde`, without lifetimes.
+///
+/// ```
+#[doc = include_str!("flash.txt")]
+/// use driveline::parameters::{Parameters, RecordError, Store};
+/// #[derive(serde::Serialize, serde::Deserialize)]
+/// struct Old { hours: u32 }
+/// impl Parameters for Old {
+///     const IDENTITY: u32 = u32::from_be_bytes(*b"hois");
+///     const VERSION: u16 = 1;
+/// }
+/// #[derive(serde::Serialize, serde::Deserialize)]
+/// struct New { hours: u32, starts: u32 }
+/// impl Parameters for New {
+///     const IDENTITY: u32 = Old::IDENTITY;
+///     const VERSION: u16 = 2; // another form: another version
+/// }
+/// let mut store = Store::new(&mut flash, 0..4096)?;
+/// store.save(&Old { hours: 7 }, &mut [0; 256])?;
+/// assert_eq!(store.load::<New>(&mut [0; 256])?.refused, Some(RecordError::Version(1)));
+/// assert_eq!(store.load::<Old>(&mut [0; 256])?.parameters.map(|old| old.hours), Some(7));
+/// # Ok::<(), driveline::parameters::Error<core::convert::Infallible>>(())
+/// ```
 pub trait Parameters: Serialize + DeserializeOwned {
     /// Identity of the parameters: a number of the firmware's own.
     const IDENTITY: u32;

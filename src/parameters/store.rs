@@ -45,6 +45,27 @@ pub struct Loaded<P> {
 }
 
 /// Parameters in a range of a flash.
+///
+/// ```
+#[doc = include_str!("flash.txt")]
+/// use driveline::learning::Learnt;
+/// use driveline::parameters::{Parameters, Store};
+/// #[derive(Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+/// struct Kept { learnt: Learnt, hours: u32 }
+/// impl Parameters for Kept {
+///     const IDENTITY: u32 = u32::from_be_bytes(*b"hois");
+///     const VERSION: u16 = 1;
+/// }
+/// let mut store = Store::new(&mut flash, 0..4096)?;
+/// for hours in 1..=3 {
+///     store.save(&Kept { learnt: Learnt::default(), hours }, &mut [0; 256])?;
+/// }
+/// // a bit of the newest record, in the first page, is lost: the one before it counts
+/// store.release().0[30] ^= 1;
+/// let kept = Store::new(&mut flash, 0..4096)?.load::<Kept>(&mut [0; 256])?;
+/// assert_eq!(kept.parameters.map(|kept| kept.hours), Some(2));
+/// # Ok::<(), driveline::parameters::Error<core::convert::Infallible>>(())
+/// ```
 #[derive(Debug)]
 // Not logged: holds the flash.
 pub struct Store<F> {

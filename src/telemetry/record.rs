@@ -4,6 +4,16 @@
 pub(super) const MOST_VALUES: usize = 21;
 
 /// Record of a tick.
+///
+/// ```
+/// use driveline::telemetry::Ring;
+/// static RING: Ring<2, 4> = Ring::new();
+/// // five ticks (speed, torque) before the main loop comes: a ring of four holds three, two are dropped
+/// (0..5).for_each(|tick| RING.record(&[f32::to_bits(100.0 + tick as f32), f32::to_bits(40.0)]));
+/// let records: Vec<_> = std::iter::from_fn(|| RING.take()).collect();
+/// assert_eq!((records.len(), RING.dropped()), (3, 2));
+/// assert_eq!((records[2].tick, f32::from_bits(records[2].values[0])), (2, 102.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Record<const VALUES: usize> {

@@ -21,6 +21,22 @@ pub enum Stage {
 
 /// A toothed wheel. Its angle is that of [`crate::settings::Teeth`]. `R` is what it records: nothing, or
 /// [`CycleTimes`].
+///
+/// ```
+/// use driveline::settings::{Teeth, ToothClock};
+/// use driveline::wheel::{Stage, ToothedWheel, ToothedWheelConfig};
+/// const CONFIG: ToothedWheelConfig<58> =
+///     ToothedWheelConfig::new(&Teeth::gap(60, 2), ToothClock { turns: 1, clock: 6e6, lowest_speed: 10.0 });
+/// let mut wheel = ToothedWheel::<()>::default();
+/// // three turns at 100 turns a second, 1000 counts from tooth to tooth; then half a tooth behind the tenth
+/// for place in (0..60 * 3 + 11_u32).filter(|place| place % 60 < 58) {
+///     wheel.tooth(&CONFIG, 1000 * place);
+/// }
+/// assert_eq!(wheel.stage(), Stage::Known);
+/// let turn = wheel.at(&CONFIG, 1000 * (60 * 3 + 10) + 500)?.angle as f64 / 4_294_967_296.0;
+/// assert!((turn - 10.5 / 60.0).abs() < 1.0 / 60_000.0); // a count of the clock
+/// # Ok::<(), driveline::fault::Faults>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ToothedWheel<R = ()> {
