@@ -14,42 +14,6 @@
 //! [`EccentricityObserver`](crate::learning::EccentricityObserver) in the drive. While a load is named they find the
 //! motor's torque constant, its offset and its inertia too. They pause by themselves: while the brake holds, after a
 //! fault, after ticks that did not run, and while the axis is tripped.
-//!
-//! ```
-//! use driveline::prelude::*;
-//! use driveline::learning::EccentricityObserver;
-//! use driveline::observer::{GearedObserver, SemiImplicitObserver};
-//!
-//! struct Crane;
-//! impl Machine for Crane {
-//!     const CHAIN: Chain = Chain::motor(Inertia(0.3)).shaft(Stiffness(2.0e4), Damping(1.0)).rotor(Inertia(0.05))
-//!         .gear(Ratio(20.0), Efficiency(0.95)).drum(Diameter(0.5)).rope(Falls(2), Stiffness(1.2e6)).lifted(Mass(5e3));
-//!     const RATING: Rating = Rating { torque: Torque(300.0), speed: Speed::rpm(1480.0), torque_limit: Torque(600.0) };
-//!     const ENCODER: Encoder = Encoder::lines(1024);
-//!     const RATE_HZ: u32 = 10_000;
-//!     const DISTURBANCE: Disturbance = Self::RATING.hoisting(Self::RATE);
-//! }
-//! impl HasLoadAndRope<3, 2> for Crane {
-//!     const LOAD: [Mass; 2] = [Mass(500.0), Mass(5_500.0)];
-//!     const ROPE: [Length; 2] = [Length(4.0), Length(16.0)];
-//!     const ROPE_OF_CHAIN: Length = Length(10.0);
-//! }
-//! type Inner = Drive<f32, EccentricityObserver<GearedObserver<SemiImplicitObserver>>, SpeedLoop>;
-//! type CraneDrive = Adaptive<Crane, Inner, LoadAndRope<3, 2>, Learners>;
-//! static CONFIG: ConfigOf<CraneDrive> = CraneDrive::configure();
-//!
-//! let mut drive = CraneDrive::new(&CONFIG, 0);
-//! // in the interrupt
-//! let command = drive.tick(&CONFIG, &Sample::si::<Crane>(0, 0.0, 100.0));
-//! // between two ticks, now and then
-//! drive.background(&CONFIG, &Known { rope: Some(12.0), load: None });
-//! // before the power goes, and after it has come back
-//! let learnt = drive.learnt();
-//! let mut drive = CraneDrive::new(&CONFIG, 0);
-//! drive.restore(&CONFIG, &learnt);
-//! assert_eq!(drive.learnt(), learnt);
-//! # assert!(command.torque > 0.0);
-//! ```
 
 mod adjust;
 mod composition;
@@ -118,6 +82,42 @@ pub struct AdaptiveConfig<C, S, M> {
 /// A drive `D` of the machine `M` that adapts itself to its load and to what it learns.
 ///
 /// It is a [`Composition`] as the drive inside is, and takes its place in an [`Axis`](crate::axis::Axis).
+///
+/// ```
+/// use driveline::prelude::*;
+/// use driveline::learning::EccentricityObserver;
+/// use driveline::observer::{GearedObserver, SemiImplicitObserver};
+///
+/// struct Crane;
+/// impl Machine for Crane {
+///     const CHAIN: Chain = Chain::motor(Inertia(0.3)).shaft(Stiffness(2.0e4), Damping(1.0)).rotor(Inertia(0.05))
+///         .gear(Ratio(20.0), Efficiency(0.95)).drum(Diameter(0.5)).rope(Falls(2), Stiffness(1.2e6)).lifted(Mass(5e3));
+///     const RATING: Rating = Rating { torque: Torque(300.0), speed: Speed::rpm(1480.0), torque_limit: Torque(600.0) };
+///     const ENCODER: Encoder = Encoder::lines(1024);
+///     const RATE_HZ: u32 = 10_000;
+///     const DISTURBANCE: Disturbance = Self::RATING.hoisting(Self::RATE);
+/// }
+/// impl HasLoadAndRope<3, 2> for Crane {
+///     const LOAD: [Mass; 2] = [Mass(500.0), Mass(5_500.0)];
+///     const ROPE: [Length; 2] = [Length(4.0), Length(16.0)];
+///     const ROPE_OF_CHAIN: Length = Length(10.0);
+/// }
+/// type Inner = Drive<f32, EccentricityObserver<GearedObserver<SemiImplicitObserver>>, SpeedLoop>;
+/// type CraneDrive = Adaptive<Crane, Inner, LoadAndRope<3, 2>, Learners>;
+/// static CONFIG: ConfigOf<CraneDrive> = CraneDrive::configure();
+///
+/// let mut drive = CraneDrive::new(&CONFIG, 0);
+/// // in the interrupt
+/// let command = drive.tick(&CONFIG, &Sample::si::<Crane>(0, 0.0, 100.0));
+/// // between two ticks, now and then
+/// drive.background(&CONFIG, &Known { rope: Some(12.0), load: None });
+/// // before the power goes, and after it has come back
+/// let learnt = drive.learnt();
+/// let mut drive = CraneDrive::new(&CONFIG, 0);
+/// drive.restore(&CONFIG, &learnt);
+/// assert_eq!(drive.learnt(), learnt);
+/// # assert!(command.torque > 0.0);
+/// ```
 // Not logged: it holds the drive, whose estimates are; `learnt` gives what was learnt.
 pub struct Adaptive<M, D: Composition, S: Part<D::Number> = (), L: Part<D::Number> = ()> {
     drive: D,

@@ -5,86 +5,11 @@
 //!
 //! # A board
 //! A new board is one file with one type that implements [`Board`]: an angle in, a torque out, the power stage on and
-//! off. [`Parts`] is that type made of parts; the crate `driveline-hal` has drivers for them. This is a board and its
-//! control loop:
+//! off. [`Parts`] is that type made of parts; the crate `driveline-hal` has drivers for them.
 //!
-//! ```
-//! use driveline::fault::Faults;
-//! use driveline::axis::{Axis, Board};
-//! # struct Timer; struct Bridge;
-//! # impl Timer { fn count(&self) -> u32 { 0 } }
-//! # impl Bridge { fn duty(&mut self, _: f32) {} fn enable(&mut self, _: bool) {} }
-//! struct MyBoard {
-//!     encoder: Timer, // of 8192 counts a turn
-//!     bridge: Bridge,
-//! }
-//!
-//! impl Board<f32> for MyBoard {
-//!     fn angle(&mut self) -> Result<u32, Faults> {
-//!         Ok(self.encoder.count() << 19)
-//!     }
-//!     fn set_torque(&mut self, torque: f32, _angle: u32) -> Result<(), Faults> {
-//!         self.bridge.duty(torque / 2.5);
-//!         Ok(())
-//!     }
-//!     fn set_enabled(&mut self, enabled: bool) -> Result<(), Faults> {
-//!         self.bridge.enable(enabled);
-//!         Ok(())
-//!     }
-//! }
-//! ```
-//!
-//! The timer's interrupt then calls [`Axis::tick`]. A board whose interrupt may be held up for longer than a tick
+//! The timer's interrupt calls [`Axis::tick`]. A board whose interrupt may be held up for longer than a tick
 //! counts the ticks that did not run, with [`MissedTicks`] behind [`Board::missed`]; the axis makes them up by
 //! prediction.
-//!
-//! # From a board to a governed motor
-//! Two dozen lines, on any board; the timer's wait here stands for its interrupt. A new drive
-//! takes its constants from a [`Machine`](crate::configure::Machine). A [`Config`](crate::drive::Config) by hand, as
-//! here, is for values that come at run time; the functions that begin with `try_` then return an error:
-//!
-//! ```
-//! # struct MyBoard(u32);
-//! # impl driveline::axis::Board<f32> for MyBoard {
-//! #     fn angle(&mut self) -> Result<u32, Faults> { Ok(0) }
-//! #     fn set_torque(&mut self, torque: f32, _: u32) -> Result<(), Faults> {
-//! #         self.0 += (torque > 0.0) as u32;
-//! #         Ok(())
-//! #     }
-//! #     fn set_enabled(&mut self, _: bool) -> Result<(), Faults> { Ok(()) }
-//! # }
-//! # impl MyBoard { fn wait_for_timer(&mut self) -> bool { self.0 < 3 } }
-//! use driveline::{axis::*, settings::*, design::*, drive::*, fault::Faults, governor::*, machine::*, observer};
-//!
-//! const TWO: TwoMass = Chain::motor(Inertia(0.62)).shaft(Stiffness(900.0), Damping(0.5)).rotor(Inertia(0.35))
-//!     .reduce(Match::ResonanceAntiresonance);
-//! const RATE: Rate = Rate::hz(10_000);
-//! const LOAD: Disturbance = Disturbance { torque_accuracy: 2.0, load_torque_step: 100.0, within: 1.0 };
-//! const CONFIG: ConfigOf<Drive<f32, observer::TwoMassObserver, SpeedLoop>> = Config {
-//!     limits: Limits::<f32>::new(&Screening {
-//!         torque: 500.0, setpoint: 180.0, innovation: 0.05, frozen_turn: 0.0015, max_coast: 150,
-//!     }, Bases::SI),
-//!     observer: observer::TwoMassConfig::<f32>::new(&TWO.observer(RATE, Encoder::lines(2048), LOAD), Bases::SI),
-//!     fluctuation: (),
-//!     governor: SpeedLoopConfig::<f32>::new(
-//!         &TWO.speed_loop(RATE, SpeedLoopTuning::USUAL),
-//!         SpeedLoopSettings { torque_limit: 300.0, ramp: 75.0 },
-//!         Bases::SI,
-//!     ),
-//!     balancer: (),
-//! };
-//!
-//! fn run(board: MyBoard) -> Result<(), Faults> {
-//!     type Mill<P> = Axis<P, Drive<f32, observer::TwoMassObserver, SpeedLoop>>;
-//!     let mut mill = Mill::new(board, &CONFIG, TRIPPING);
-//!     mill.start(&CONFIG)?;
-//!     while mill.board().wait_for_timer() {
-//!         mill.tick(&CONFIG, 150.0);
-//!     }
-//!     Ok(())
-//! }
-//! # assert_eq!(run(MyBoard(0)), Ok(()));
-//! ```
 
 mod board;
 mod missed_ticks;
@@ -103,6 +28,54 @@ pub use missed_ticks::MissedTicks;
 pub const TRIPPING: Faults = Faults::TORQUE_OUTPUT.with(Faults::ENABLE).with(Faults::ANGLE_LOST).with(Faults::STOPPED);
 
 /// A drive on a board. It starts with the power stage off.
+///
+/// # From a board to a governed motor
+/// Two dozen lines, on any board; the timer's wait here stands for its interrupt. A new drive
+/// takes its constants from a [`Machine`](crate::configure::Machine). A [`Config`](crate::drive::Config) by hand, as
+/// here, is for values that come at run time; the functions that begin with `try_` then return an error:
+///
+/// ```
+/// # struct MyBoard(u32);
+/// # impl driveline::axis::Board<f32> for MyBoard {
+/// #     fn angle(&mut self) -> Result<u32, Faults> { Ok(0) }
+/// #     fn set_torque(&mut self, torque: f32, _: u32) -> Result<(), Faults> {
+/// #         self.0 += (torque > 0.0) as u32;
+/// #         Ok(())
+/// #     }
+/// #     fn set_enabled(&mut self, _: bool) -> Result<(), Faults> { Ok(()) }
+/// # }
+/// # impl MyBoard { fn wait_for_timer(&mut self) -> bool { self.0 < 3 } }
+/// use driveline::{axis::*, settings::*, design::*, drive::*, fault::Faults, governor::*, machine::*, observer};
+///
+/// const TWO: TwoMass = Chain::motor(Inertia(0.62)).shaft(Stiffness(900.0), Damping(0.5)).rotor(Inertia(0.35))
+///     .reduce(Match::ResonanceAntiresonance);
+/// const RATE: Rate = Rate::hz(10_000);
+/// const LOAD: Disturbance = Disturbance { torque_accuracy: 2.0, load_torque_step: 100.0, within: 1.0 };
+/// const CONFIG: ConfigOf<Drive<f32, observer::TwoMassObserver, SpeedLoop>> = Config {
+///     limits: Limits::<f32>::new(&Screening {
+///         torque: 500.0, setpoint: 180.0, innovation: 0.05, frozen_turn: 0.0015, max_coast: 150,
+///     }, Bases::SI),
+///     observer: observer::TwoMassConfig::<f32>::new(&TWO.observer(RATE, Encoder::lines(2048), LOAD), Bases::SI),
+///     fluctuation: (),
+///     governor: SpeedLoopConfig::<f32>::new(
+///         &TWO.speed_loop(RATE, SpeedLoopTuning::USUAL),
+///         SpeedLoopSettings { torque_limit: 300.0, ramp: 75.0 },
+///         Bases::SI,
+///     ),
+///     balancer: (),
+/// };
+///
+/// fn run(board: MyBoard) -> Result<(), Faults> {
+///     type Mill<P> = Axis<P, Drive<f32, observer::TwoMassObserver, SpeedLoop>>;
+///     let mut mill = Mill::new(board, &CONFIG, TRIPPING);
+///     mill.start(&CONFIG)?;
+///     while mill.board().wait_for_timer() {
+///         mill.tick(&CONFIG, 150.0);
+///     }
+///     Ok(())
+/// }
+/// # assert_eq!(run(MyBoard(0)), Ok(()));
+/// ```
 #[derive(Debug)]
 // Not logged: holds the parts of a board.
 pub struct Axis<P, D: Composition> {

@@ -3,6 +3,32 @@
 use crate::fault::Faults;
 
 /// A board with a motor: an angle in, a torque out, the power stage on and off.
+///
+/// ```
+/// use driveline::fault::Faults;
+/// use driveline::axis::{Axis, Board};
+/// # struct Timer; struct Bridge;
+/// # impl Timer { fn count(&self) -> u32 { 0 } }
+/// # impl Bridge { fn duty(&mut self, _: f32) {} fn enable(&mut self, _: bool) {} }
+/// struct MyBoard {
+///     encoder: Timer, // of 8192 counts a turn
+///     bridge: Bridge,
+/// }
+///
+/// impl Board<f32> for MyBoard {
+///     fn angle(&mut self) -> Result<u32, Faults> {
+///         Ok(self.encoder.count() << 19)
+///     }
+///     fn set_torque(&mut self, torque: f32, _angle: u32) -> Result<(), Faults> {
+///         self.bridge.duty(torque / 2.5);
+///         Ok(())
+///     }
+///     fn set_enabled(&mut self, enabled: bool) -> Result<(), Faults> {
+///         self.bridge.enable(enabled);
+///         Ok(())
+///     }
+/// }
+/// ```
 pub trait Board<N> {
     /// Ticks that should have run since the last one and did not, as [`MissedTicks`](super::MissedTicks) counts them:
     /// none, where the board cannot miss one.

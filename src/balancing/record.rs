@@ -1,47 +1,4 @@
 //! The record of a procedure as parameters in flash: entries survive a power cut.
-//!
-//! ```
-//! use driveline::balancing::{Complex, Plan, Procedure, Record, Run};
-//! # use embedded_storage::nor_flash::{ErrorType, NorFlash, ReadNorFlash};
-//! # struct Flash([u8; 4096]);
-//! # impl ErrorType for Flash { type Error = core::convert::Infallible; }
-//! # impl ReadNorFlash for Flash {
-//! #     const READ_SIZE: usize = 1;
-//! #     fn read(&mut self, at: u32, bytes: &mut [u8]) -> Result<(), Self::Error> {
-//! #         bytes.copy_from_slice(&self.0[at as usize..][..bytes.len()]);
-//! #         Ok(())
-//! #     }
-//! #     fn capacity(&self) -> usize { 4096 }
-//! # }
-//! # impl NorFlash for Flash {
-//! #     const WRITE_SIZE: usize = 4;
-//! #     const ERASE_SIZE: usize = 2048;
-//! #     fn erase(&mut self, from: u32, to: u32) -> Result<(), Self::Error> {
-//! #         self.0[from as usize..to as usize].fill(0xff);
-//! #         Ok(())
-//! #     }
-//! #     fn write(&mut self, at: u32, bytes: &[u8]) -> Result<(), Self::Error> {
-//! #         self.0[at as usize..][..bytes.len()].copy_from_slice(bytes);
-//! #         Ok(())
-//! #     }
-//! # }
-//! # let mut flash = Flash([0xff; 4096]);
-//! type Field = Procedure<f32, 2, 2>;
-//! type Kept = Record<{ Field::words(2, 2) }>;
-//! let plan = Plan::usual(2, 2, 1e-4);
-//! let mut field = Field::new(plan)?;
-//! let mut store = driveline::parameters::Store::new(&mut flash, 0..4096)?;
-//!
-//! // after every entry
-//! field.baseline(&Run::new(&[Complex::new(1.0, 0.5), Complex::new(0.0, 2.0)], &[155.0; 2])?)?;
-//! store.save(&Kept::of(&field, &[])?, &mut [0; 1024])?;
-//!
-//! // when power is on again
-//! let kept: Option<Kept> = store.load(&mut [0; 1024])?.parameters;
-//! let resumed = kept.ok_or("nothing was kept")?.resume(plan, &mut [])?;
-//! assert_eq!(resumed, field);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
 
 use heapless::Vec;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -53,6 +10,26 @@ use crate::parameters::Parameters;
 
 /// Everything that was entered into a procedure, in at most `WORDS` words: [`Procedure::words`] gives the number
 /// needed. In front of them are words of the firmware's own, as the run-out that its readings are less.
+///
+/// ```
+/// use driveline::balancing::{Complex, Plan, Procedure, Record, Run};
+#[doc = include_str!("../parameters/flash.txt")]
+/// type Field = Procedure<f32, 2, 2>;
+/// type Kept = Record<{ Field::words(2, 2) }>;
+/// let plan = Plan::usual(2, 2, 1e-4);
+/// let mut field = Field::new(plan)?;
+/// let mut store = driveline::parameters::Store::new(&mut flash, 0..4096)?;
+///
+/// // after every entry
+/// field.baseline(&Run::new(&[Complex::new(1.0, 0.5), Complex::new(0.0, 2.0)], &[155.0; 2])?)?;
+/// store.save(&Kept::of(&field, &[])?, &mut [0; 1024])?;
+///
+/// // when power is on again
+/// let kept: Option<Kept> = store.load(&mut [0; 1024])?.parameters;
+/// let resumed = kept.ok_or("nothing was kept")?.resume(plan, &mut [])?;
+/// assert_eq!(resumed, field);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 // Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct Record<const WORDS: usize>(Vec<u32, WORDS>);

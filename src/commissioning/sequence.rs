@@ -38,6 +38,36 @@ enum Phase {
 }
 
 /// A test under way. `L` lines of the multisine: 24 as a rule, 16 at least.
+///
+/// ```
+/// use driveline::commissioning::{Commissioning, Stage, TestConfig, TestSettings};
+/// use driveline::design::{Encoder, Rate};
+///
+/// let config = TestConfig::try_new(&TestSettings {
+///     rate: Rate::hz(10_000),
+///     encoder: Encoder::lines(2048),
+///     torque: 300.0,
+///     shaft_torque: 375.0,
+///     speed: 15.0,
+///     travel: 900.0,
+///     held: 190.0,
+///     inertia: 0.7,
+///     band: [2.0, 12.0],
+///     torque_accuracy: 7.5,
+///     delay: 0.0,
+/// })?;
+/// let mut test = Commissioning::<24>::new(&config);
+/// // in the timer's interrupt
+/// let torque = test.tick(&config, 0);
+/// // in the main loop
+/// if let Some(job) = test.job() {
+///     let findings = job.solve(&config);
+///     test.accept(&config, findings);
+/// }
+/// assert_eq!(test.stage(), Stage::Holding);
+/// # assert!((torque - 190.0).abs() < 1.0);
+/// # Ok::<(), driveline::commissioning::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Commissioning<const L: usize> {

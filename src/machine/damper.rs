@@ -13,19 +13,6 @@
 //! - **[`pendulum`](CentrifugalPendulum)**: order `sqrt(R/L)`; no amplitude at that order, at every speed
 //!
 //! The first two hold for a machine without damping of its own.
-//!
-//! ```
-//! use driveline::machine::{Chain, Damping, Inertia, Resonance, Stiffness};
-//!
-//! const CHAIN: Chain =
-//!     Chain::motor(Inertia(2.0)).shaft(Stiffness(4.0e5), Damping(0.0)).rotor(Inertia(1.0));
-//! // the first mode at the second mass, with a ring of a tenth of its inertia
-//! const MAIN: Resonance = Resonance::of(&CHAIN.modes().resonances()[0], 1);
-//! let damper = MAIN.tuned_damper(Inertia(0.1 * MAIN.inertia));
-//! let worst = (500..1500).map(|k| MAIN.amplitude(&damper, k as f64 * 1e-3 * MAIN.frequency)).fold(0.0, f64::max);
-//! // the best damping leaves the fixed points as the highest, to a few parts in a thousand
-//! assert!((worst / Resonance::tuned_amplitude(0.1) - 1.0).abs() < 5e-3);
-//! ```
 
 mod friction;
 mod pendulum;
@@ -47,6 +34,19 @@ pub struct Resonance {
 }
 
 /// A ring on a spring and a viscous damper beside one of the machine's masses.
+///
+/// ```
+/// use driveline::machine::{Chain, Damping, Inertia, Resonance, Stiffness};
+///
+/// const CHAIN: Chain =
+///     Chain::motor(Inertia(2.0)).shaft(Stiffness(4.0e5), Damping(0.0)).rotor(Inertia(1.0));
+/// // the first mode at the second mass, with a ring of a tenth of its inertia
+/// const MAIN: Resonance = Resonance::of(&CHAIN.modes().resonances()[0], 1);
+/// let damper = MAIN.tuned_damper(Inertia(0.1 * MAIN.inertia));
+/// let worst = (500..1500).map(|k| MAIN.amplitude(&damper, k as f64 * 1e-3 * MAIN.frequency)).fold(0.0, f64::max);
+/// // the best damping leaves the fixed points as the highest, to a few parts in a thousand
+/// assert!((worst / Resonance::tuned_amplitude(0.1) - 1.0).abs() < 5e-3);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Damper {

@@ -15,14 +15,6 @@
 //! Torques are in N m, speeds in rad/s, at the motor's shaft. The stiffness of a characteristic is `|d tau/d omega|`
 //! (N m s/rad): it damps the machine where the torque falls with the speed. The overload capacity is the largest
 //! torque over the rated one.
-//!
-//! ```
-//! use driveline::machine::{Induction, Speed, Torque};
-//! // 1480 r/min, 750 N m, breakdown at 2.5 times that; 1500 r/min without load
-//! const MOTOR: Induction = Induction::new(Speed(154.99), Torque(750.0), Speed(157.08), 2.5);
-//! assert!((MOTOR.torque(Speed(154.99)).0 - 750.0).abs() < 1e-9);
-//! assert_eq!(MOTOR.breakdown, 2.5 * 750.0);
-//! ```
 
 mod characteristic;
 mod combustion;

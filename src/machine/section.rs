@@ -2,19 +2,6 @@
 //!
 //! A section twists by `tau/(G J_p(x))` along its length, `J_p = pi (D^4 - d^4)/32`; the sections of a stepped shaft
 //! carry one torque, so that their compliances add up [Wang 1989 §1-3, (1-16)].
-//!
-//! ```
-//! use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Section, ShearModulus, Stiffness, stepped};
-//!
-//! const SHAFT: [Section; 3] = [
-//!     Section::solid(Length(0.30), Diameter(0.060)),
-//!     Section::tapered(Length(0.05), Diameter(0.060), Diameter(0.080)),
-//!     Section::solid(Length(0.45), Diameter(0.080)).bored(Diameter(0.030)),
-//! ];
-//! const K: Stiffness = stepped(&SHAFT, ShearModulus::STEEL);
-//! const DRIVE: Chain = Chain::motor(Inertia(0.2)).shaft(K, Damping(1.0)).rotor(Inertia(1.5));
-//! assert!((DRIVE.shafts()[0].stiffness - K.0).abs() < 1e-9);
-//! ```
 
 use core::f64::consts::PI;
 
@@ -32,6 +19,19 @@ impl Density {
 }
 
 /// A piece of a shaft: a cylinder or a cone, solid or with a cylindrical bore.
+///
+/// ```
+/// use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Section, ShearModulus, Stiffness, stepped};
+///
+/// const SHAFT: [Section; 3] = [
+///     Section::solid(Length(0.30), Diameter(0.060)),
+///     Section::tapered(Length(0.05), Diameter(0.060), Diameter(0.080)),
+///     Section::solid(Length(0.45), Diameter(0.080)).bored(Diameter(0.030)),
+/// ];
+/// const K: Stiffness = stepped(&SHAFT, ShearModulus::STEEL);
+/// const DRIVE: Chain = Chain::motor(Inertia(0.2)).shaft(K, Damping(1.0)).rotor(Inertia(1.5));
+/// assert!((DRIVE.shafts()[0].stiffness - K.0).abs() < 1e-9);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Section {

@@ -1,18 +1,5 @@
 //! Branched and closed drive trains: chains that stand on one another's masses, and shafts that close loops.
 //!
-//! ```
-//! use driveline::machine::{Chain, Damping, Efficiency, Inertia, Match, Ratio, Stiffness, Train, TwoMass};
-//!
-//! // An engine on a common gear wheel, which drives two propellers through gears of 1.6.
-//! const PROPELLER: Chain = Chain::motor(Inertia(800.0)).shaft(Stiffness(7.45e6), Damping(0.0)).rotor(Inertia(450.0));
-//! const ENGINE: Chain = Chain::motor(Inertia(3200.0)).shaft(Stiffness(4.27e6), Damping(0.0)).rotor(Inertia(400.0));
-//! const SHIP: Train = Train::of(ENGINE)
-//!     .branch(1, Ratio(1.6), PROPELLER)
-//!     .branch(1, Ratio(1.6), PROPELLER);
-//! const TWO: TwoMass = SHIP.reduce(Match::ResonanceAntiresonance);
-//! assert!((TWO.total_inertia() / SHIP.total_inertia() - 1.0).abs() < 1e-14);
-//! ```
-//!
 //! Everything is referred to the motor, the mass of index 0. Twists of the shafts of a tree are independent. A shaft
 //! that closes a loop is twisted by the sum of those round the loop, with signs and no other factors. So the strain
 //! energy is `|R delta|^2`, with R from the tree's shafts. Where there are loops, R is from a triangulation of all

@@ -37,6 +37,19 @@ impl WorkingCycle {
 }
 
 /// A cylinder of an engine.
+///
+/// ```
+/// use core::f64::consts::PI;
+/// use driveline::machine::{Cylinder, Length, free_forces, phasor_sum};
+///
+/// const FOUR: [Cylinder; 4] = Cylinder::fired(Cylinder::in_line([0.0, PI, PI, 0.0], Length(0.1)), [1, 3, 4, 2]);
+/// // no first order, four times that of one cylinder of the second
+/// assert!(free_forces(&FOUR, 1).largest() < 1e-15);
+/// assert!((free_forces(&FOUR, 2).largest() - 4.0).abs() < 1e-15);
+/// // the rigid crankshaft feels the second order of all four, and nothing of the first
+/// assert!((phasor_sum(&FOUR, &[1.0; 4], 2.0) - 4.0).abs() < 1e-14);
+/// assert!(phasor_sum(&FOUR, &[1.0; 4], 1.0) < 1e-14);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Cylinder {
