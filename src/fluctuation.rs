@@ -115,6 +115,7 @@ use crate::sample::Estimate;
     message = "`{Self}` measures no fluctuation in `{N}`",
     note = "the order is `Drive<Number, Observer, Governor, Fluctuation, Balancer>`, with `()` for a part left out"
 )]
+#[doc(alias("cyclic irregularity", "coefficient of fluctuation"))]
 pub trait Fluctuation<N: Number>: Default {
     /// Its constants, shared and immutable.
     type Config;

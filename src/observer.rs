@@ -120,6 +120,7 @@ use crate::sample::Estimate;
     message = "`{Self}` is no observer in `{N}`",
     note = "the order is `Drive<Number, Observer, Governor, Fluctuation, Balancer>`, with `()` for a part left out"
 )]
+#[doc(alias("Luenberger", "state estimator"))]
 pub trait Observer<N: Number>: Sized {
     /// Its constants, shared and immutable.
     type Config;

@@ -68,6 +68,7 @@ pub trait Board<N> {
 }
 
 /// A sensor of the motor's angle.
+#[doc(alias("encoder", "resolver"))]
 pub trait AngleSensor {
     /// The angle now, 2^32 to the turn.
     ///
@@ -96,6 +97,7 @@ pub trait Enabling {
 }
 
 /// A sensor of vibration.
+#[doc(alias = "accelerometer")]
 pub trait VibrationSensor<N> {
     /// The newest sample, `None` where none has come since the last call and none is overdue.
     ///

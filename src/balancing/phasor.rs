@@ -37,6 +37,7 @@ use crate::fault::Faults;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias("vibration analysis", "synchronous averaging", "unbalance"))]
 pub struct Phasors<const CHANNELS: usize, const EDGES: usize, N: Synchronous = f32> {
     turning: RotorAngle,
     /// Cosine and sine of the rotor's angle at the last tick.

@@ -75,6 +75,7 @@ struct Trial<T: Scalar, const ROWS: usize> {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 // Not logged: the complex numbers of `nalgebra` have no `Format`.
+#[doc(alias("field balancing", "trial weight"))]
 pub struct Procedure<T: Scalar, const ROWS: usize, const PLANES: usize, const TRIALS: usize = PLANES> {
     plan: Plan<T, ROWS, PLANES>,
     /// Coefficients that were known before.

@@ -22,6 +22,7 @@ const DISC: f64 = 0.2;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 // Not logged: the complex numbers of `nalgebra` have no `Format`.
+#[doc(alias = "imbalance")]
 pub struct RigidUnbalance<T: Scalar> {
     /// Static unbalance (kg m): the sum of all.
     pub resultant: Complex<T>,

@@ -88,6 +88,7 @@ pub struct Look<N: VibrationNumber, const ROWS: usize, const EDGES: usize> {
 /// ```
 #[derive(Clone, Debug)]
 // Not logged: holds the head and the memory.
+#[doc(alias("active balancing", "unbalance"))]
 pub struct BalancingTask<M, H, K, const ROWS: usize = 2, const PLANES: usize = 1> {
     design: BalancingDesign<PLANES>,
     moves: InRunConfig<f32, PLANES>,

@@ -18,6 +18,7 @@ pub const GRADES: [f64; 11] = [0.4, 1.0, 2.5, 6.3, 16.0, 40.0, 100.0, 250.0, 630
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias("ISO 21940", "ISO 1940", "unbalance"))]
 pub struct Tolerance<T> {
     /// Balance quality grade G, the speed of the centre of mass about the axis (mm/s).
     pub grade: T,

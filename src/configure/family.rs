@@ -142,6 +142,7 @@ pub trait Family<const A: usize, const B: usize>: Machine {
 /// }
 /// assert!((Crane::LOADS[1] - 2_000.0).abs() < 1e-9); // in equal ratios: sqrt(500 * 8000)
 /// ```
+#[doc(alias("crane", "hoist", "gain scheduling"))]
 pub trait HasLoadAndRope<const A: usize, const B: usize>: Machine {
     /// The least and the largest load, such as the empty hook and a tenth over the largest.
     const LOAD: [Mass; 2];

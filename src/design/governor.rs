@@ -83,6 +83,7 @@ impl Actuator {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias = "feedforward")]
 pub struct LoadFeedForward {
     /// The share, from 0 to 1.
     pub share: f64,
@@ -121,6 +122,7 @@ pub struct VirtualInertia {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias = "symmetrical optimum")]
 pub struct GovernorDesign {
     /// Time between two ticks (s).
     pub period: f64,

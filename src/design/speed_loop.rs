@@ -29,6 +29,7 @@ use crate::math::sqrt;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias = "PID tuning")]
 pub struct SpeedLoopTuning {
     /// Natural frequency of the speed over the antiresonance, above 0 and below 1; from 0.3 to 0.6 in practice. Above
     /// the resonance for a load that swings slowly: the motor holds its speed against the swing, which is left at

@@ -55,6 +55,7 @@ impl Rate {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias = "resolver")]
 pub struct Encoder {
     counts: u64,
     /// Amplitudes of interpolation error and eccentricity (rad).

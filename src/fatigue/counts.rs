@@ -22,6 +22,7 @@ pub(super) const LONGEST: usize = 259;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias = "Miner")]
 pub struct Counts<const CLASSES: usize> {
     pub(super) width: f64,
     pub(super) period: f64,

@@ -5,6 +5,7 @@ use crate::math::{exp, ln};
 /// An S-N (Wöhler) curve, straight on logarithmic scales with a knee.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias("S-N curve", "Wöhler"))]
 pub struct WoehlerLine {
     /// Amplitude at the knee (N m), half of a cycle's range.
     pub knee: f64,

@@ -88,6 +88,7 @@ type Finished<R> = [[Peak<R>; 2]; 2];
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias = "cyclic irregularity")]
 pub struct Extremes<N: Ranked = f32> {
     tick: u32,
     slice: Slice,

@@ -93,6 +93,7 @@ enum Slice {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias("cyclic irregularity", "order analysis"))]
 pub struct Waveform<const BINS: usize, N: Summed = f32> {
     tick: u32,
     stage: Stage,

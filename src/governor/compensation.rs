@@ -76,8 +76,7 @@ impl<N: Number, A: Compensation<N>, B: Compensation<N>> Compensation<N> for (A, 
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[doc(alias = "feed forward")]
-#[doc(alias = "feedforward")]
+#[doc(alias("feed forward", "feedforward"))]
 pub struct FeedForward;
 
 /// Constants of [`FeedForward`].
@@ -149,6 +148,7 @@ impl<N: Number> Compensation<N> for MechanismFeedForward<N> {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias = "resonance damping")]
 pub struct ActiveDamping;
 
 /// Constants of [`ActiveDamping`].

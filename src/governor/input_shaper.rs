@@ -35,6 +35,7 @@ use crate::sample::Estimate;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 // The order keeps the runs of words that a start clears short: for long ones the compiler calls a loop to clear them.
 #[repr(C)]
+#[doc(alias("notch", "anti-sway", "ZV", "ZVD"))]
 pub struct InputShaper<G, const SLOTS: usize, const PARTS: usize = 3, N = f32> {
     setpoint: N,
     /// Speed at the start: the setpoint of the time before it.

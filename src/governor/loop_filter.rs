@@ -162,6 +162,7 @@ impl<N: Number> LoopFilter<N> for SetpointLag<N> {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias("notch", "low-pass filter"))]
 pub struct DampingLag<N = f32> {
     twist_rate: N,
 }
@@ -209,6 +210,7 @@ impl<N: Number> LoopFilter<N> for DampingLag<N> {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias("notch", "low-pass filter", "roll-off"))]
 pub struct SpeedLag<N = f32> {
     speed: N,
 }

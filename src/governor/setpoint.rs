@@ -87,6 +87,7 @@ impl<N: Number> SetpointShape<N> for Droop {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias("critical speed", "resonance"))]
 pub struct Barred<const K: usize>;
 
 /// A range of speeds.

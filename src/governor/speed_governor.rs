@@ -76,9 +76,7 @@ pub struct SpeedGovernorConfig<N: Number, S, F, L, M, V> {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[doc(alias = "PI")]
-#[doc(alias = "PID")]
-#[doc(alias = "anti-windup")]
+#[doc(alias("PI", "PID", "anti-windup"))]
 pub struct SpeedGovernor<S = (), F = (), L = SymmetricLimit, M = (), V = (), N = f32> {
     integral: N,
     ramped: N,

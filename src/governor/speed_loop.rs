@@ -58,9 +58,7 @@ impl<N: Number> SpeedLoopConfig<N> {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[doc(alias = "PI")]
-#[doc(alias = "PID")]
-#[doc(alias = "anti-windup")]
+#[doc(alias("PI", "PID", "anti-windup"))]
 pub struct SpeedLoop<F = (), N = f32> {
     integral: N,
     ramped: N,

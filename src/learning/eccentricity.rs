@@ -156,6 +156,7 @@ impl Correction for Fixed {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias("encoder error", "runout"))]
 pub struct EccentricityObserver<O, N: Correction = f32> {
     observer: O,
     /// The last accepted angle, as measured.

@@ -49,6 +49,7 @@ pub struct Resonance {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias("torsional vibration damper", "tuned mass damper"))]
 pub struct Damper {
     /// Inertia of the ring (kg m2).
     pub inertia: f64,

@@ -30,6 +30,7 @@ pub struct Mode {
 /// The natural vibrations of a chain or train in rising order, without the rigid turning at zero frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias("torsional vibration", "natural frequency", "modal analysis"))]
 pub struct Modes {
     mode: [Mode; SHAFTS],
     antiresonance: [f64; SHAFTS],

@@ -12,6 +12,7 @@ use super::{Chain, Efficiency, Error, Inertia, Mass, Ratio};
 /// [`PlanetaryGear`] has other inputs and held members.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias = "epicyclic gear")]
 pub struct Planetary {
     /// Teeth of the sun.
     pub sun_teeth: u32,

@@ -99,6 +99,7 @@ quantity! {
     ///     .backlash(Gap(0.002)).shaft(Stiffness(9.0e4), Damping(10.0)).rotor(Inertia(12.0));
     /// assert!((MILL.total_gap() - 0.010).abs() < 1e-15);
     /// ```
+    #[doc(alias("backlash", "play"))]
     Gap,
     /// Travel along a straight line, or length of a shaft, connecting rod or pendulum (m).
     ///

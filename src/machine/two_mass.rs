@@ -16,6 +16,7 @@ use crate::math::sqrt;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias("torsional vibration", "resonance"))]
 pub struct TwoMass {
     /// Inertia on the motor's side (kg m2).
     pub motor_inertia: f64,

@@ -125,6 +125,7 @@ pub struct BacklashConfig<N: Number> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(C)]
+#[doc(alias = "play")]
 pub struct BacklashObserver<N = f32> {
     twist: N,
     twist_rate: N,

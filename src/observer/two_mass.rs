@@ -66,6 +66,7 @@ pub struct TwoMassConfig<N: Number> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(C)]
+#[doc(alias("Kalman", "Luenberger", "torque estimation"))]
 pub struct TwoMassObserver<N = f32> {
     twist: N,
     twist_rate: N,

@@ -68,6 +68,7 @@ impl<const K: usize> Axis<K> {
 /// Constants over two scheduling variables.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias = "gain scheduling")]
 pub struct Schedule<C, const A: usize, const B: usize> {
     first: Axis<A>,
     second: Axis<B>,

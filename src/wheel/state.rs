@@ -39,6 +39,7 @@ pub enum Stage {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias("tachometer", "crankshaft sensor", "60-2"))]
 pub struct ToothedWheel<R = ()> {
     /// The last edge that was taken, and the time from the one before; 0 where there is none.
     pub(super) last: u32,

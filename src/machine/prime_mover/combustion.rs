@@ -45,6 +45,7 @@ impl CombustionType {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias("diesel", "engine"))]
 pub struct Combustion {
     /// How it burns.
     pub mixture: CombustionType,

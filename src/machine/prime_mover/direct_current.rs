@@ -6,6 +6,7 @@ use crate::machine::{Speed, Torque};
 /// A shunt or separately excited motor: `tau = c (U - c omega)/R` [derived; shape: Wang 1989 §1-2].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias("DC motor", "direct-current motor"))]
 pub struct Shunt {
     /// Armature voltage (V).
     pub voltage: f64,
@@ -55,6 +56,7 @@ impl Shunt {
 /// A series motor: `tau = c I^2`, `I = U/(R + c omega)` [derived; shape: Wang 1989 §1-2]. Without load it runs away.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias("DC motor", "direct-current motor"))]
 pub struct Series {
     /// Voltage (V).
     pub voltage: f64,

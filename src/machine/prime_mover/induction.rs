@@ -19,6 +19,7 @@ use crate::math::sqrt;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[doc(alias("AC motor", "asynchronous motor", "Kloss"))]
 pub struct Induction {
     /// Synchronous speed (rad/s).
     pub synchronous: f64,
