@@ -20,7 +20,8 @@ mod composition;
 mod learners;
 mod load_and_rope;
 
-pub use adjust::{Adjust, HasEccentricity};
+pub use adjust::Adjust;
+pub(crate) use adjust::HasEccentricity;
 pub use learners::{Learners, LearnersState, Learning};
 pub use load_and_rope::{LoadAndRope, LoadAndRopeState, Scheduling};
 

@@ -6,6 +6,6 @@ mod rotor_angle;
 mod sincos;
 
 pub use once_per_turn::OncePerTurn;
-pub(crate) use rotor_angle::Passed;
-pub use rotor_angle::{RotorAngle, RotorAngleConfig};
+pub use rotor_angle::RotorAngleConfig;
+pub(crate) use rotor_angle::{Passed, RotorAngle};
 pub use sincos::Synchronous;

@@ -153,7 +153,7 @@ pub use machine::{Machine, Rating};
 pub use observer::HasMechanism;
 pub use refusal::{Needs, Refusal};
 pub(crate) use refusal::{constants, stop_refused};
-pub use schedule_test::{RefusedPoint, ScheduleTest, test_schedule};
+pub use schedule_test::test_schedule;
 pub use units::Units;
 pub use vibration::{HasVibration, VibrationNumber};
 

@@ -46,8 +46,8 @@ mod tick_count;
 
 pub use actuated::{Actuated, ActuatedConfig};
 pub use axis::MADE_UP;
-pub use composition::{Composition, ConfigOf, GovernorConfigOf, ObserverConfigOf, VibrationOf};
-pub(crate) use composition::{handed_on, own};
+pub use composition::{Composition, ConfigOf};
+pub(crate) use composition::{GovernorConfigOf, ObserverConfigOf, VibrationOf, handed_on, own};
 pub use recorder::Recorded;
 pub use tick_count::TickCount;
 

@@ -15,26 +15,6 @@
 //! - **S-N (Wöhler) curve**: cycles to failure against the amplitude, half of the range
 //! - **damage**: cycles over cycles to failure, summed over all ranges (Miner); failure at 1
 //! - **torque amplification factor**: largest torque over the rated torque
-//!
-//! ```
-//! use driveline::fatigue::{Rainflow, TorqueClasses, WoehlerLine};
-//! use driveline::fluctuation::Fluctuation;
-//! use driveline::sample::Estimate;
-//!
-//! /// 64 classes between -640 and 640 N m.
-//! const CLASSES: TorqueClasses<f32> = TorqueClasses::<f32>::new::<64>(640.0);
-//! const STEEL: WoehlerLine = WoehlerLine { knee: 100.0, cycles: 2.0e6, slope: 5.0, below: 9.0 };
-//!
-//! let mut rainflow = Rainflow::<64, f32>::default(); // in a drive: its measurement of the fluctuation
-//! for tick in 0..4000 {
-//!     let torque = if tick / 20 % 2 == 0 { 310.0 } else { -290.0 }; // 100 cycles of 600 N m
-//!     let estimate = Estimate { shaft_torque: torque, ..Estimate::default() };
-//!     rainflow.measure(&CLASSES, 0, 0.0, &estimate); // in a drive: `drive.tick(..)`
-//! }
-//! let counts = rainflow.counts(&CLASSES); // between two ticks
-//! let expected = 100.0 / (2.0e6 * (100.0_f64 / 300.0).powf(5.0));
-//! assert!((counts.damage(&STEEL) / expected - 1.0).abs() < 0.01); // the residue has the last half cycle
-//! ```
 
 mod class;
 mod counts;

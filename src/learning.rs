@@ -22,7 +22,7 @@ mod torque_constant;
 
 pub use eccentricity::{Correction, EccentricityConfig, EccentricityObserver};
 pub use gear_loss::{GearLoss, GearLossConfig};
-pub use mechanism::{LearntMechanism, MechanismFit, SegmentEnd};
+pub use mechanism::{LearntMechanism, MechanismFit};
 pub use record::{LearningBounds, Learnt};
 pub use run_up::{RunUp, RunUpConfig};
 pub use torque_constant::{TorqueCalibration, TorqueConstant, TorqueConstantConfig};

@@ -58,7 +58,7 @@ mod two_mass;
 
 pub use belt::Belt;
 pub use chain::{CAPACITY, Chain, Losses, Shaft};
-pub use crank::{CrankSlider, Travel, VariableInertia};
+pub use crank::{CrankSlider, Travel};
 pub use damper::{CentrifugalPendulum, Damper, FrictionDamper, Resonance};
 pub use driven_mechanism::DrivenMechanism;
 pub use engine::{Cylinder, Harmonic, Indicator, Shaking, WorkingCycle, free_forces, free_moments, phasor_sum};

@@ -43,6 +43,5 @@ pub(crate) use cycle::LOST;
 pub use cycle::{CycleTimes, Record, ToothCycle};
 pub use description::{Tooth, ToothedWheelConfig};
 pub use phase::Cam;
-pub use place::Search;
 pub(crate) use place::{MOST, RATIOS, ratio_of};
 pub use state::{Stage, ToothedWheel};

@@ -62,7 +62,7 @@ impl<N: Stiction, C: Adjust> Adjust for LoadGearConfig<N, C> {
 
 /// An observer with an eccentricity to be learnt, by an [`EccentricityObserver`] anywhere in it; without one it is
 /// zero.
-pub trait HasEccentricity {
+pub(crate) trait HasEccentricity {
     /// As [`EccentricityObserver::learn`].
     fn learn_eccentricity(&mut self, _config: &EccentricityConfig, _speed: f32) {}
 

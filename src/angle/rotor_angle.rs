@@ -65,7 +65,7 @@ pub(crate) enum Passed {
 /// Where a rotor is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct RotorAngle {
+pub(crate) struct RotorAngle {
     /// The motor's angle at the last tick (2^-32 turn).
     motor: u32,
     /// Units of the rotor's position in the upper word, 2^-32 units in the lower.

@@ -137,8 +137,7 @@ pub trait HasActuator<const K: usize>: Machine {
 }
 
 /// The gains behind the filter `V`.
-// Not logged: it has no value.
-pub struct GainsBehind<V>(core::marker::PhantomData<V>);
+pub(crate) struct GainsBehind<V>(core::marker::PhantomData<V>);
 
 impl<M, N, S, F, L, U, V> Configure<M, N> for SpeedGovernor<S, F, L, U, V>
 where

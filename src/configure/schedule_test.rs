@@ -5,38 +5,20 @@ use crate::design::{Error, LoopObserver, SemiImplicitStep, Spread, Tolerance};
 use crate::machine::TwoMass;
 use crate::math::sqrt;
 
-/// A point of a gain schedule that is refused.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct RefusedPoint {
-    /// Index of its first parameter.
-    pub first: usize,
-    /// Index of its second parameter.
-    pub second: usize,
-    /// What its speed loop lacks.
-    pub error: Error,
-}
-
-/// What a gain schedule is like at its points.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct ScheduleTest {
-    /// The first point that is refused.
-    pub refused: Option<RefusedPoint>,
-    /// The largest error of the semi-implicit step over a period of the resonance; above
-    /// [`StepChoice::THRESHOLD`](crate::design::StepChoice::THRESHOLD) the schedule needs `TwoMassObserver`.
-    pub semi_implicit: f64,
-}
-
 /// Tests the speed loops at all points of a family's gain schedule.
 ///
 /// The loop of a point must have the margins of [`Machine::ROBUSTNESS`](super::Machine::ROBUSTNESS) there. It must be
 /// stable with every machine up to half way to the neighbouring points, by inertia of the load and stiffness in equal
 /// ratios, within [`Machine::TOLERANCE`](super::Machine::TOLERANCE) of motor inertia, torque and delay. For a test on
 /// the host: it takes as long as a drive's own at each point.
-#[must_use]
-pub const fn test_schedule<M: Family<A, B>, const A: usize, const B: usize>() -> ScheduleTest {
-    let mut test = ScheduleTest { refused: None, semi_implicit: 0.0 };
+///
+/// It gives the largest error of the semi-implicit step over a period of the resonance; above
+/// [`StepChoice::THRESHOLD`](crate::design::StepChoice::THRESHOLD) the schedule needs `TwoMassObserver`.
+///
+/// # Errors
+/// The indices of the first point that is refused, by both parameters, and what its speed loop lacks.
+pub const fn test_schedule<M: Family<A, B>, const A: usize, const B: usize>() -> Result<f64, (usize, usize, Error)> {
+    let mut largest = 0.0;
     each!(first, 0..A, {
         each!(second, 0..B, {
             let member = &M::MEMBERS[first][second];
@@ -47,17 +29,16 @@ pub const fn test_schedule<M: Family<A, B>, const A: usize, const B: usize>() ->
             };
             let observer = LoopObserver::Placed(&M::OBSERVERS[first][second]);
             let speed_loop = &M::SPEED_LOOPS[first][second];
-            let tested = member.try_robust(observer, speed_loop, M::ACTUATOR, &tolerance, &M::ROBUSTNESS);
-            if let (Err(error), None) = (tested, &test.refused) {
-                test.refused = Some(RefusedPoint { first, second, error });
+            if let Err(error) = member.try_robust(observer, speed_loop, M::ACTUATOR, &tolerance, &M::ROBUSTNESS) {
+                return Err((first, second, error));
             }
             let step = SemiImplicitStep::new(member, M::PERIOD).fidelity.error_bound;
-            if !(step <= test.semi_implicit) {
-                test.semi_implicit = step;
+            if !(step <= largest) {
+                largest = step;
             }
         });
     });
-    test
+    Ok(largest)
 }
 
 /// Factors of load inertia or stiffness up to half way to the neighbours of a point.

@@ -29,8 +29,11 @@ use crate::math::sqrt;
 ///
 /// ```
 /// use driveline::design::Actuator;
-/// // six cylinders, four-stroke, 1500 r/min: half of 13.3 ms between firings, and a quarter of a turn
-/// assert!((Actuator::firing_delay(6, true, 157.08) - 0.0167).abs() < 1e-4);
+/// // 1500 r/min, 40 ms a turn: half of the 13.3 ms between the firings of six cylinders, and a quarter of a turn; of
+/// // four cylinders of a two-stroke engine half of 10 ms
+/// let speed = 50.0 * core::f64::consts::PI;
+/// assert!((Actuator::firing_delay(6, true, speed) - (0.04 / 3.0 / 2.0 + 0.01)).abs() < 1e-15);
+/// assert!((Actuator::firing_delay(4, false, speed) - (0.01 / 2.0 + 0.01)).abs() < 1e-15);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

@@ -91,7 +91,7 @@ const fn solve<const N: usize, const M: usize>(
     };
     let information = h.transpose().times(&weighted).symmetric();
     match doubling(&f.transpose(), &information, &q) {
-        Some(found) => Ok(found.solution.scaled(units, &per)),
+        Some(found) => Ok(found.scaled(units, &per)),
         None => Err(Error::NotConverged),
     }
 }

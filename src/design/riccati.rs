@@ -12,23 +12,13 @@ mod five;
 use super::Matrix;
 use five::{Solver, Square};
 
-/// A solution of the Riccati equation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Doubling<const N: usize> {
-    /// The stabilising solution.
-    pub solution: Matrix<N, N>,
-    /// Doublings made.
-    pub iterations: u32,
-}
-
 /// The stabilising `X` of `X = A^T X (1 + G X)^-1 A + H`, with G and H symmetric and positive semidefinite.
 ///
 /// Where H vanishes the doubling stays at zero, which stabilises only an A that is stable already.
 ///
 /// `None` where it does not converge within 60 doublings: no stabilising solution, or one at the edge of stability.
 #[must_use]
-pub const fn doubling<const N: usize>(a: &Matrix<N, N>, g: &Matrix<N, N>, h: &Matrix<N, N>) -> Option<Doubling<N>> {
+pub const fn doubling<const N: usize>(a: &Matrix<N, N>, g: &Matrix<N, N>, h: &Matrix<N, N>) -> Option<Matrix<N, N>> {
     if let (Some(a), Some(g), Some(h)) = (five::square(a), five::square(g), five::square(h)) {
         return doubling_of_five(a, g, h);
     }
@@ -60,7 +50,7 @@ pub const fn doubling<const N: usize>(a: &Matrix<N, N>, g: &Matrix<N, N>, h: &Ma
             settled = settled && grown.0[i][i] <= 1e-17 * h.0[i][i];
         });
         if settled {
-            return Some(Doubling { solution: h, iterations });
+            return Some(h);
         }
     }
     None
@@ -81,7 +71,7 @@ const fn units<const N: usize>(covariance: &Matrix<N, N>) -> [f64; N] {
 }
 
 /// The same for five states.
-const fn doubling_of_five<const N: usize>(mut a: Square, mut g: Square, mut h: Square) -> Option<Doubling<N>> {
+const fn doubling_of_five<const N: usize>(mut a: Square, mut g: Square, mut h: Square) -> Option<Matrix<N, N>> {
     let mut iterations = 0;
     while iterations < 60 {
         let joint = five::sum(&five::UNIT, &five::product(&g, &h));
@@ -102,7 +92,7 @@ const fn doubling_of_five<const N: usize>(mut a: Square, mut g: Square, mut h: S
         let [a0, b0, c0, d0, e0] = five::diagonal(&grown);
         let [a1, b1, c1, d1, e1] = five::diagonal(&h);
         if a0 <= 1e-17 * a1 && b0 <= 1e-17 * b1 && c0 <= 1e-17 * c1 && d0 <= 1e-17 * d1 && e0 <= 1e-17 * e1 {
-            return Some(Doubling { solution: five::matrix(&h), iterations });
+            return Some(five::matrix(&h));
         }
     }
     None

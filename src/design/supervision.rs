@@ -70,26 +70,14 @@ pub struct LoadStep {
     pub rise: f64,
 }
 
-/// Largest innovation of an observer (rad).
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct InnovationResponse {
-    /// After a step of one newton metre at the motor that was not reported.
-    pub motor: f64,
-    /// After the load's step.
-    pub load: f64,
-}
-
 impl TwoMassDesign {
-    /// Largest innovations after a step of the torque.
+    /// Largest innovations (rad): after a step of one newton metre at the motor that was not reported, and after the
+    /// load's step.
     #[must_use]
-    pub const fn innovation_response(&self, load: &LoadStep) -> InnovationResponse {
+    pub const fn innovation_response(&self, load: &LoadStep) -> [f64; 2] {
         let ticks = 1.0 + load.rise / self.period;
         let share = load.torque / ticks;
-        InnovationResponse {
-            motor: self.largest_innovation(1.0, 0.0, 0),
-            load: self.largest_innovation(0.0, share, ticks as u32),
-        }
+        [self.largest_innovation(1.0, 0.0, 0), self.largest_innovation(0.0, share, ticks as u32)]
     }
 
     const fn largest_innovation(&self, motor: f64, load: f64, rise: u32) -> f64 {
@@ -99,15 +87,12 @@ impl TwoMassDesign {
 }
 
 impl RigidDesign {
-    /// Largest innovations after a step of the torque; of one mass both answer alike.
+    /// As [`TwoMassDesign::innovation_response`]; of one mass both answer alike.
     #[must_use]
-    pub const fn innovation_response(&self, load: &LoadStep) -> InnovationResponse {
+    pub const fn innovation_response(&self, load: &LoadStep) -> [f64; 2] {
         let ticks = 1.0 + load.rise / self.period;
         let share = load.torque / ticks;
-        InnovationResponse {
-            motor: self.largest_innovation(1.0, 1),
-            load: self.largest_innovation(share, ticks as u32),
-        }
+        [self.largest_innovation(1.0, 1), self.largest_innovation(share, ticks as u32)]
     }
 
     /// As two masses without a twist.
@@ -165,7 +150,7 @@ impl Supervision {
     /// Duration beyond a limit (s).
     const LASTING: f64 = 0.02;
 
-    /// The limits of a machine.
+    /// The limits of a machine, from its observer's [largest innovations](TwoMassDesign::innovation_response).
     ///
     /// - innovation: the response to the error of the torque constant at the torque limit, the offset, and a twentieth
     ///   of rated torque of friction, all at the motor, and to the step of the load, a quarter more; 0.15 counts and the
@@ -184,7 +169,7 @@ impl Supervision {
     #[must_use]
     pub const fn of(
         rating: &Rating,
-        response: InnovationResponse,
+        [by_motor, by_load]: [f64; 2],
         tolerance: &Tolerance,
         encoder: Encoder,
         load: &LoadStep,
@@ -195,7 +180,7 @@ impl Supervision {
         let count = or_stop!(encoder.resolution());
         let constant = tolerance.torque.max - 1.0;
         let unknown = constant * limit + (tolerance.offset + 0.05) * rated;
-        let within = response.motor * unknown + response.load;
+        let within = by_motor * unknown + by_load;
         let least = Self::TICKS * period;
         let recent = if least > Self::RECENT { least } else { Self::RECENT };
         let part = if load.rise > recent { recent / load.rise } else { 1.0 };

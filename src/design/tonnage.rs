@@ -19,18 +19,6 @@ use super::MechanismDesign;
 use crate::machine::{DrivenMechanism, MECHANISM_POINTS};
 use crate::math::hypot;
 
-/// A force at the tool with the angle at which it acted.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct ToolForce {
-    /// Angle of the crank (rad).
-    pub angle: f64,
-    /// Force against the increase of the tool's way (N); of a rocker torque (N m).
-    pub force: f64,
-    /// Its standard deviation; infinite at a dead centre.
-    pub deviation: f64,
-}
-
 /// Accuracy of a tool's force, as standard deviations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -52,15 +40,17 @@ impl MechanismDesign {
     }
 
     /// Force at the tool, from the crank's angle (rad), the motor's speed (rad/s) and the load torque above the idle
-    /// torque (N m at the motor), as estimated in one tick.
+    /// torque (N m at the motor), as estimated in one tick. Gives the crank's angle at which it acted (rad), the force
+    /// against the increase of the tool's way (N; of a rocker its torque, N m) and its standard deviation, infinite at
+    /// a dead centre.
     #[must_use]
-    pub fn tool_force(&self, angle: f64, motor_speed: f64, torque: f64, accuracy: &ForceAccuracy) -> ToolForce {
+    pub fn tool_force(&self, angle: f64, motor_speed: f64, torque: f64, accuracy: &ForceAccuracy) -> [f64; 3] {
         let angle = angle - self.machine.ratio() * motor_speed * self.load_delay();
         let [leverage, slope] = self.machine.leverage(angle);
         let force = torque / leverage;
         let torque = hypot(hypot(self.rigid.standard_deviation[2], accuracy.idle), accuracy.relative * torque);
         let deviation = hypot(torque / leverage, force * accuracy.angle * slope / leverage);
-        ToolForce { angle, force, deviation: if deviation.is_finite() { deviation } else { f64::INFINITY } }
+        [angle, force, if deviation.is_finite() { deviation } else { f64::INFINITY }]
     }
 }
 

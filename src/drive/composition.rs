@@ -157,13 +157,13 @@ pub(crate) use {handed_on, own};
 pub type ConfigOf<D> = <D as Composition>::Config;
 
 /// The constants of a drive's observer, from the type of the drive.
-pub type ObserverConfigOf<D> = <<D as Composition>::Observer as Observer<<D as Composition>::Number>>::Config;
+pub(crate) type ObserverConfigOf<D> = <<D as Composition>::Observer as Observer<<D as Composition>::Number>>::Config;
 
 /// The constants of a drive's governor, from the type of the drive.
-pub type GovernorConfigOf<D> = <<D as Composition>::Governor as Governor<<D as Composition>::Number>>::Config;
+pub(crate) type GovernorConfigOf<D> = <<D as Composition>::Governor as Governor<<D as Composition>::Number>>::Config;
 
 /// The samples of the vibration in a tick, from the type of the drive.
-pub type VibrationOf<D> = <<D as Composition>::Balancer as Balancer<<D as Composition>::Number>>::Vibration;
+pub(crate) type VibrationOf<D> = <<D as Composition>::Balancer as Balancer<<D as Composition>::Number>>::Vibration;
 
 impl<N, O, G, F, B> Composition for Drive<N, O, G, F, B>
 where

@@ -13,33 +13,22 @@
 use crate::machine::{MECHANISM_POINTS, Mechanism, MechanismPoint};
 use crate::math::{sin_cos, sqrt};
 
-/// One end of a segment of the run.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct SegmentEnd {
-    /// Angle of the crank (rad), from the mechanism's zero.
-    pub angle: f64,
-    /// Speed of the crank (rad/s), filtered without delay: noise of the speed makes the inertia too small.
-    pub speed: f64,
-}
-
 /// Least squares of a mechanism, in `P` unknowns: `4 K + 3` for K orders of inertia and of torque.
 ///
 /// Takes `8 P^2` bytes. A segment is a part of a turn, such as a sixty-fourth.
 ///
 /// ```
 /// use core::f64::consts::TAU;
-/// use driveline::learning::{MechanismFit, SegmentEnd};
+/// use driveline::learning::MechanismFit;
 /// // a flywheel of 3 kg m2 with 5 N m of friction: a turn at 10 rad/s, a turn up to 20, a turn there
 /// let mut fit = MechanismFit::<7>::default();
 /// let turns = [[10.0, 10.0], [10.0, 20.0], [20.0, 20.0]];
 /// for (turn, [from, to]) in turns.into_iter().enumerate() {
 ///     for k in 0..64 {
-///         let [a, b] = [k, k + 1].map(|k| k as f64 / 64.0).map(|part| SegmentEnd {
-///             angle: (turn as f64 + part) * TAU,
-///             speed: from + (to - from) * part,
-///         });
-///         fit.segment(&a, &b, 1.5 * (b.speed.powi(2) - a.speed.powi(2)) + 5.0 * (b.angle - a.angle));
+///         let parts = [k, k + 1].map(|k| k as f64 / 64.0);
+///         let (angle, speed) = (parts.map(|part| (turn as f64 + part) * TAU), parts.map(|part| from + (to - from) * part));
+///         let work = 1.5 * (speed[1].powi(2) - speed[0].powi(2)) + 5.0 * (angle[1] - angle[0]);
+///         fit.segment(angle, speed, work);
 ///     }
 /// }
 /// let learnt = fit.mechanism().ok_or("one speed alone")?;
@@ -65,24 +54,25 @@ impl<const P: usize> MechanismFit<P> {
     const ORDERS: usize = (P - 3) / 4;
     const SERIES: usize = 2 * Self::ORDERS + 1;
 
-    /// Takes a segment: its two ends, and the work of the motor at the crank's shaft (J) between them. The speed
-    /// counts as straight over the angle.
-    pub fn segment(&mut self, from: &SegmentEnd, to: &SegmentEnd, work: f64) {
+    /// Takes a segment: angles (rad, from the mechanism's zero) and speeds (rad/s) of the crank at its two ends, and the
+    /// work of the motor at the crank's shaft (J) between them. The speed counts as straight over the angle. It is to be
+    /// filtered without delay: its noise makes the inertia too small.
+    pub fn segment(&mut self, [from, to]: [f64; 2], [slow, fast]: [f64; 2], work: f64) {
         let mut row = [0.0; P];
-        let (kinetic_from, kinetic_to) = (0.5 * from.speed * from.speed, 0.5 * to.speed * to.speed);
-        let turned = to.angle - from.angle;
+        let (kinetic_from, kinetic_to) = (0.5 * slow * slow, 0.5 * fast * fast);
+        let turned = to - from;
         row[0] = kinetic_to - kinetic_from;
         row[Self::SERIES] = turned;
         for order in 1..=Self::ORDERS {
             let k = order as f64;
-            let ((s0, c0), (s1, c1)) = (sin_cos(k * from.angle), sin_cos(k * to.angle));
+            let ((s0, c0), (s1, c1)) = (sin_cos(k * from), sin_cos(k * to));
             let (cosine, sine) = (2 * order - 1, 2 * order);
             row[cosine] = kinetic_to * c1 - kinetic_from * c0;
             row[sine] = kinetic_to * s1 - kinetic_from * s0;
             row[Self::SERIES + cosine] = (s1 - s0) / k;
             row[Self::SERIES + sine] = (c0 - c1) / k;
         }
-        row[P - 1] = 0.5 * (from.speed + to.speed) * turned;
+        row[P - 1] = 0.5 * (slow + fast) * turned;
         for (i, &of) in row.iter().enumerate() {
             for (sum, &with) in self.normal[i].iter_mut().zip(&row) {
                 *sum += of * with;

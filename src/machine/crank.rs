@@ -11,7 +11,7 @@
 use core::f64::consts::TAU;
 
 use super::error::{not_negative, positive};
-use super::{Error, Inertia, Length, Mass};
+use super::{Error, Inertia, Length, Mass, MechanismPoint};
 use crate::math::{sin_cos, sqrt};
 
 /// A crank, a connecting rod and a slider in line with the crank's axis.
@@ -44,16 +44,6 @@ pub struct Travel {
     pub first: f64,
     /// Second derivative (m/rad2).
     pub second: f64,
-}
-
-/// The inertia at the crank and its derivative by the angle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct VariableInertia {
-    /// Inertia J(phi) (kg m2).
-    pub inertia: f64,
-    /// Derivative J'(phi) (kg m2/rad).
-    pub derivative: f64,
 }
 
 impl CrankSlider {
@@ -112,16 +102,17 @@ impl CrankSlider {
         lean * (swing * swing - 1.0) / upright
     }
 
-    /// Inertia at the crank at an angle (rad) from the top dead centre.
+    /// Inertia at the crank at an angle (rad) from the top dead centre, with the slider's leverage.
     #[must_use]
-    pub const fn inertia(&self, angle: f64) -> VariableInertia {
+    pub const fn inertia(&self, angle: f64) -> MechanismPoint {
         let (sine, cosine) = sin_cos(angle);
         let lean = self.lambda() * sine;
         let upright = sqrt((1.0 - lean) * (1.0 + lean));
         let swing = self.lambda() * cosine / upright;
         let (to_and_fro, round, rest) = (self.reciprocating_mass().0, self.rotating_inertia().0, self.rod_correction());
         let travel = self.travel(angle);
-        VariableInertia {
+        MechanismPoint {
+            leverage: travel.first,
             inertia: round + to_and_fro * travel.first * travel.first + rest * swing * swing,
             derivative: 2.0
                 * (to_and_fro * travel.first * travel.second + rest * swing * self.lean_rate(sine, upright, swing)),

@@ -73,13 +73,7 @@ impl Mechanism {
             Err(error) => return Self::with(Some(error)),
         };
         each!(j, 0..MECHANISM_POINTS, {
-            let angle = angle_of(j);
-            let here = crank.inertia(angle);
-            mechanism.points[j] = MechanismPoint {
-                inertia: here.inertia,
-                derivative: here.derivative,
-                leverage: crank.travel(angle).first,
-            };
+            mechanism.points[j] = crank.inertia(angle_of(j));
         });
         mechanism
     }

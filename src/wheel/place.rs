@@ -39,7 +39,7 @@ pub(crate) const fn ratio_of(number: usize) -> f64 {
 /// Places at which the last tooth may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Search {
+pub(crate) struct Search {
     /// Those that are left.
     left: Set,
     /// Intervals since it began.

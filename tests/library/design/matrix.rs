@@ -144,9 +144,9 @@ fn scalar_riccati() {
         let found = doubling(&Matrix([[a]]), &Matrix([[g]]), &Matrix([[h]]));
         match found {
             // Near the edge of stability, h = 1e-12, half the digits are lost by the equation itself.
-            Some(found) if h > 0.0 => assert!((found.solution.0[0][0] / expected - 1.0).abs() < 1e-9, "{a} {g} {h}"),
+            Some(found) if h > 0.0 => assert!((found.0[0][0] / expected - 1.0).abs() < 1e-9, "{a} {g} {h}"),
             // Without noise the doubling stays at the other solution, zero.
-            Some(found) => assert_eq!(found.solution.0[0][0], 0.0),
+            Some(found) => assert_eq!(found.0[0][0], 0.0),
             None => panic!("{a} {g} {h} did not converge"),
         }
     }

@@ -218,12 +218,3 @@ fn nyquist_agrees_with_the_closed_loop() {
     // The set has both.
     assert!(found.iter().all(|&count| count > 3), "{found:?}");
 }
-
-/// A six-cylinder four-stroke engine at 1500 r/min: 40 ms a turn, 13.3 ms between two firings; half of those and a
-/// quarter turn.
-#[test]
-fn firing_delay_is_half_an_interval_and_a_quarter_turn() {
-    let speed = 50.0 * core::f64::consts::PI;
-    assert!((Actuator::firing_delay(6, true, speed) - (0.04 / 3.0 / 2.0 + 0.01)).abs() < 1e-15);
-    assert!((Actuator::firing_delay(4, false, speed) - (0.01 / 2.0 + 0.01)).abs() < 1e-15);
-}

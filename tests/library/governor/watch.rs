@@ -1,7 +1,7 @@
 //! The watch on an actuator, against lags by their exact solution.
 
 use driveline::fault::Faults;
-use driveline::governor::{ActuatorMonitor, ActuatorMonitorConfig, RunRequest, RunState, Sequencer, Trip};
+use driveline::governor::{ActuatorMonitor, ActuatorMonitorConfig, Trip};
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::{Fixed, Number};
 use driveline::settings::{ActuatorMonitorSettings, Bases};
@@ -90,15 +90,4 @@ fn no_word_of_fixed_point_passes_for_another() {
         let far = (told.to_f64() - expected.to_f64()).abs() > config.tolerance.to_f64();
         assert_eq!(watch.check(&config, told).1.is_none(), !far, "{told:?}");
     }
-}
-
-#[test]
-fn a_trip_from_outside_latches_as_every_other() {
-    let mut modes = Sequencer::default();
-    assert!(modes.request(RunRequest::Start) && modes.trip(Trip::Actuator));
-    assert!(!modes.trip(Trip::SensorLoss) && !modes.request(RunRequest::Start));
-    assert_eq!(modes.state(), RunState::Tripped(Trip::Actuator));
-    assert!(modes.request(RunRequest::Reset));
-    // One that stands still with its actuator open is not to be started.
-    assert!(modes.trip(Trip::Actuator));
 }

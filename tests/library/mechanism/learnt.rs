@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use driveline::learning::{MechanismFit, SegmentEnd};
+use driveline::learning::MechanismFit;
 use driveline::machine::MECHANISM_POINTS;
 use driveline_solver::noise::Noise;
 
@@ -52,12 +52,11 @@ fn errors(law: &str, noise: &mut Noise) -> [f64; 2] {
         works.push(work);
     }
     // ends of segments: a sixty-fourth of a turn of the crank apart or a little more
-    let end =
-        |k: usize| SegmentEnd { angle: seen[k] / RATIO, speed: slope(&seen[k - SPAN..=k + SPAN]) * RATE_HZ / RATIO };
+    let speed = |k: usize| slope(&seen[k - SPAN..=k + SPAN]) * RATE_HZ / RATIO;
     let mut last = SPAN;
     for k in SPAN..seen.len() - SPAN {
         if seen[k] - seen[last] >= RATIO * TAU / 64.0 {
-            fit.segment(&end(last), &end(k), works[k] - works[last]);
+            fit.segment([last, k].map(|k| seen[k] / RATIO), [last, k].map(speed), works[k] - works[last]);
             last = k;
         }
     }
@@ -92,8 +91,7 @@ fn mechanisms_are_learnt_from_a_run_at_two_speeds() {
 fn one_speed_does_not_determine_a_mechanism() {
     let mut fit = MechanismFit::<7>::default();
     for k in 0..200 {
-        let end = |k: i32| SegmentEnd { angle: 0.1 * f64::from(k), speed: 5.0 };
-        fit.segment(&end(k), &end(k + 1), 1.0);
+        fit.segment([k, k + 1].map(|k| 0.1 * f64::from(k)), [5.0; 2], 1.0);
     }
     assert_eq!(fit.mechanism(), None);
 }

@@ -119,13 +119,13 @@ fn stroke(drawn: &Drawn, (counts, step): (u32, f64), peak: f64, noise: &mut Nois
         recent.drain(..recent.len() - AVERAGED);
         let mean = recent.iter().map(|of| of[2]).sum::<f64>() / AVERAGED as f64;
         let [angle, speed, _] = recent[AVERAGED / 2];
-        let reading = design.tool_force(angle, speed, mean - 20.0, &accuracy);
+        let [at, found, deviation] = design.tool_force(angle, speed, mean - 20.0, &accuracy);
         // the truth at the angle of the reading, of the turn that it belongs to
-        let here = reading.angle + TAU * ((press.angle(1) - reading.angle) / TAU).round() - homed;
+        let here = at + TAU * ((press.angle(1) - at) / TAU).round() - homed;
         if !blind(here) {
-            let error = (reading.force - against(here)).abs();
+            let error = (found - against(here)).abs();
             errors.push(error / rated);
-            beyond += f64::from(u8::from(error > 3.0 * reading.deviation));
+            beyond += f64::from(u8::from(error > 3.0 * deviation));
         }
         if exceeded.is_none() && force(press.angle(1)) > rated {
             exceeded = Some(tick);
