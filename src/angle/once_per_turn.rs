@@ -1,9 +1,4 @@
 //! The angle of a rotor with one pulse a turn: a photo tacho, or a mark on the shaft.
-//!
-//! Between pulses the angle grows with the speed of the turns before. Each pulse corrects angle and speed with the
-//! gains of a straight line through the pulses so far, with a memory of twelve turns (alpha-beta filter of growing
-//! memory). A pulse is only known to a tick. Less than that error is left in the angle, and next to none on average
-//! over the turns of a reading.
 
 /// Turns of memory.
 const MEMORY: usize = 12;
@@ -25,6 +20,11 @@ const GAINS: [[i64; 2]; MEMORY] = {
 /// The angle of a rotor with one pulse a turn, advanced once a tick.
 ///
 /// The pulse is the rotor's zero; [`crate::balancing::Phasors`] takes the angle as that of a motor.
+///
+/// Between pulses the angle grows with the speed of the turns before. Each pulse corrects angle and speed with the
+/// gains of a straight line through the pulses so far, with a memory of twelve turns (alpha-beta filter of growing
+/// memory). A pulse is only known to a tick. Less than that error is left in the angle, and next to none on average
+/// over the turns of a reading.
 ///
 /// ```
 /// use driveline::angle::OncePerTurn;

@@ -1,14 +1,14 @@
 //! The angle of a rotor behind a gear, exact over any number of turns.
-//!
-//! Behind a gear of `p/q` turns of the rotor to one of the motor the rotor's angle does not follow from the motor's,
-//! which wraps. Its increments do: the position is counted in units of `1/q` of 2^-32 turn, of which a motor's
-//! increment is a whole number `p`. So the sum is exact, and it wraps where the rotor has turned once. After a year of
-//! turns it is where it was.
 
 /// Least number of units on a turn: the angle that is passed on has a resolution of 2^-26 turns (1e-7 rad).
 const UNITS: u32 = 1 << 26;
 
 /// A gear as the tick path loads it.
+///
+/// Behind a gear of `p/q` turns of the rotor to one of the motor the rotor's angle does not follow from the motor's,
+/// which wraps. Its increments do: the position is counted in units of `1/q` of 2^-32 turn, of which a motor's
+/// increment is a whole number `p`. So the sum is exact, and it wraps where the rotor has turned once. After a year of
+/// turns it is where it was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RotorAngleConfig {

@@ -1,8 +1,4 @@
 //! Sine and cosine on the tick, from a table with the slope at each place.
-//!
-//! 128 places on a turn and the tangent there: the error is 1.5e-4 at most and zero on average, since the radius is
-//! that of the mean. That is a thirtieth of a reading's tolerance, for 640 bytes of flash and the two multiplications
-//! of the slope. The table holds the sine of a turn and a quarter: a cosine is the sine a quarter on.
 
 use crate::math::sin_cos;
 use crate::number::{Fixed, Number};
@@ -57,6 +53,10 @@ fn place(angle: u32) -> usize {
 }
 
 /// A number that a phasor can be measured in.
+///
+/// 128 places on a turn and the tangent there: the error is 1.5e-4 at most and zero on average, since the radius is
+/// that of the mean. That is a thirtieth of a reading's tolerance, for 640 bytes of flash and the two multiplications
+/// of the slope. The table holds the sine of a turn and a quarter: a cosine is the sine a quarter on.
 pub trait Synchronous: Number {
     /// A cosine or a sine, or a difference of two.
     type Part: Copy + Default + PartialEq + core::fmt::Debug;

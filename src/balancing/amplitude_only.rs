@@ -1,8 +1,4 @@
 //! One plane without a phase sensor: amplitudes of runs with the same trial weight at different angles.
-//!
-//! With `a` the influence, `v0` the baseline and the weight `W` at angle alpha,
-//! `|v0 + a W e^{i alpha}|^2 = |v0|^2 + x^2 + 2 |v0| x cos(phi + alpha)`, where `x = |a| W` and phi is the angle of
-//! `a/v0`. Three angles give x and phi by least squares; two leave two answers.
 
 use super::error::Error;
 use super::matrix::pick;
@@ -29,6 +25,10 @@ pub struct FromAmplitudes<T: Scalar> {
 /// [`Error::NoEffect`] where the runs are no different, [`Error::TrialAngles`] where the angles are the same or the
 /// weights of three or more runs lie on one line through the shaft, [`Error::AmplitudesDisagree`] where no influence
 /// gives such amplitudes, or the runs contradict each other by more than the effect's square.
+///
+/// With `a` the influence, `v0` the baseline and the weight `W` at angle alpha,
+/// `|v0 + a W e^{i alpha}|^2 = |v0|^2 + x^2 + 2 |v0| x cos(phi + alpha)`, where `x = |a| W` and phi is the angle of
+/// `a/v0`. Three angles give x and phi by least squares; two leave two answers.
 pub fn from_amplitudes<T: Scalar>(baseline: T, trial: T, runs: &[(T, T)]) -> Result<FromAmplitudes<T>, Error> {
     if !(trial > T::zero() && trial.is_finite()) {
         return Err(Error::TrialWeightZero { plane: 0 });

@@ -1,25 +1,4 @@
 //! In-run balancing (active balancing) with a balancing head or an electromagnetic actuator.
-//!
-//! Each move of the weights is a trial of its own: the influence and its variance are identified from the moves by
-//! recursive least squares with forgetting. A move minimises the expected vibration (cautious control, Åström and
-//! Wittenmark, *Adaptive Control*, 7.3). It is larger where the influence is too uncertain to be identified by it. It
-//! is never larger than four standard deviations of that uncertainty allow within the bound.
-//!
-//! Without a first estimate the head stands still for three further readings: their change is the machine's own. The
-//! first move is the probe: a weight that is known to change the vibration by less than the bound allows. Later moves
-//! are bounded by the identified influence, and go no more than a few times as far as weights that were read.
-//!
-//! A correction waits until a second move has confirmed the estimate. It is made only where it cannot make the
-//! vibration worse within its uncertainty. Where readings change by themselves by too much, the head goes back to where
-//! it began. A change that an identified influence does not explain is a jump of the unbalance: the influence stays,
-//! and the correction follows. What was best before it is best no longer.
-//!
-//! Weights stay only where the vibration is below four fifths of that at rest, measured and estimated. Else the head
-//! goes back. The speed of a reading is used only where the reading is not as predicted: slow swings of the speed
-//! hardly change a vibration.
-//!
-//! A resumed run is judged by the first vibration of all: noise and target are shares of that. What was learnt has to
-//! be confirmed again, first at rest and then by a move that is safe without it.
 
 mod action;
 mod correct;
@@ -56,6 +35,27 @@ const BETTER: f64 = 0.7;
 const WORTH: f64 = 0.8;
 
 /// In-run balancing of at most `ROWS` readings by `PLANES` heads.
+///
+/// Each move of the weights is a trial of its own: the influence and its variance are identified from the moves by
+/// recursive least squares with forgetting. A move minimises the expected vibration (cautious control, Åström and
+/// Wittenmark, *Adaptive Control*, 7.3). It is larger where the influence is too uncertain to be identified by it. It
+/// is never larger than four standard deviations of that uncertainty allow within the bound.
+///
+/// Without a first estimate the head stands still for three further readings: their change is the machine's own. The
+/// first move is the probe: a weight that is known to change the vibration by less than the bound allows. Later moves
+/// are bounded by the identified influence, and go no more than a few times as far as weights that were read.
+///
+/// A correction waits until a second move has confirmed the estimate. It is made only where it cannot make the
+/// vibration worse within its uncertainty. Where readings change by themselves by too much, the head goes back to where
+/// it began. A change that an identified influence does not explain is a jump of the unbalance: the influence stays,
+/// and the correction follows. What was best before it is best no longer.
+///
+/// Weights stay only where the vibration is below four fifths of that at rest, measured and estimated. Else the head
+/// goes back. The speed of a reading is used only where the reading is not as predicted: slow swings of the speed
+/// hardly change a vibration.
+///
+/// A resumed run is judged by the first vibration of all: noise and target are shares of that. What was learnt has to
+/// be confirmed again, first at rest and then by a move that is safe without it.
 ///
 /// ```
 /// use driveline::balancing::{Action, Complex, InRun, InRunConfig};

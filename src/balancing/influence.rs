@@ -1,7 +1,4 @@
 //! Influence coefficients: the change of each reading per unit weight in each plane.
-//!
-//! `v = A w + v0` [Goodman 1964]: a row for each sensor at each speed, a column for each plane. A trial weight gives a
-//! column, `a = (v - v0) / w`.
 
 use super::error::Error;
 use super::matrix::{Matrix, pick};
@@ -11,6 +8,9 @@ use super::scalar::{Complex, Scalar, given, real, size, square, zero};
 /// (unit of the reading per unit of the weight).
 ///
 /// A row is a sensor at a speed; the order is the user's, and the same in all runs.
+///
+/// `v = A w + v0` [Goodman 1964]: a row for each sensor at each speed, a column for each plane. A trial weight gives a
+/// column, `a = (v - v0) / w`.
 ///
 /// ```
 /// use driveline::balancing::{Complex, Influence};

@@ -1,12 +1,4 @@
 //! The phasor of each vibration channel, by integration over the rotor's angle.
-//!
-//! The integral of `v e^{-i theta}` over the angle is the sum of `v` times the change of `e^{-i theta}` over each tick:
-//! no multiplication by the step, and no time in it, so a swing of the speed changes nothing, and a constant vanishes
-//! exactly over a turn. Where a block of turns ends the tick is cut at the rotor's zero: `e^{-i theta}` is one there,
-//! so the fraction of the tick at either end costs no division. The hold of a sample over the tick before it is
-//! corrected when the reading is taken, with the mean step.
-//!
-//! The sums run on; at the end of each block of turns they are noted down. Divisions are left to [`Phasors::reading`].
 
 use super::reading::{Edge, Reading};
 use super::{Balancer, PhasorsConfig, ReadingFault, Steadiness};
@@ -16,6 +8,14 @@ use crate::fault::Faults;
 
 /// A measurement of `CHANNELS` channels that ends after `EDGES - 1` blocks, and the reading until the next one is
 /// begun.
+///
+/// The integral of `v e^{-i theta}` over the angle is the sum of `v` times the change of `e^{-i theta}` over each tick:
+/// no multiplication by the step, and no time in it, so a swing of the speed changes nothing, and a constant vanishes
+/// exactly over a turn. Where a block of turns ends the tick is cut at the rotor's zero: `e^{-i theta}` is one there,
+/// so the fraction of the tick at either end costs no division. The hold of a sample over the tick before it is
+/// corrected when the reading is taken, with the mean step.
+///
+/// The sums run on; at the end of each block of turns they are noted down. Divisions are left to [`Phasors::reading`].
 ///
 /// ```
 /// use driveline::balancing::{Balancer, Phasors, PhasorsConfig};

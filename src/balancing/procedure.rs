@@ -1,8 +1,5 @@
 //! The procedure of balancing in the field, step by step: baseline, a trial run for each plane, correction,
 //! verification, trim.
-//!
-//! The entries decide the next step; any step can be repeated, and the last one undone. Everything entered goes into a
-//! record of words that a firmware can store, and from which the procedure goes on after a power cut.
 
 mod plan;
 mod run;
@@ -58,6 +55,9 @@ struct Trial<T: Scalar, const ROWS: usize> {
 }
 
 /// A procedure under way. `TRIALS` trial runs are kept: one for each plane by default.
+///
+/// The entries decide the next step; any step can be repeated, and the last one undone. Everything entered goes into a
+/// record of words that a firmware can store, and from which the procedure goes on after a power cut.
 ///
 /// ```
 /// use driveline::balancing::{Complex, Plan, Procedure, ProcedureStep, Run};

@@ -1,8 +1,4 @@
 //! Unbalance of a rigid rotor: its static and its couple part, and whether one plane is enough.
-//!
-//! Static balance is `sum m r = 0`, dynamic balance that of forces and moments, which takes two planes [Notes ch. 5].
-//! Any dynamic unbalance is a static part, which acts in the centre of mass, and a couple part, two opposite
-//! unbalances in two planes. Derived.
 
 use super::error::Error;
 use super::scalar::{Complex, Scalar, given, real, zero};
@@ -11,6 +7,10 @@ use super::scalar::{Complex, Scalar, given, real, zero};
 const DISC: f64 = 0.2;
 
 /// Unbalance of a rigid rotor about its centre of mass.
+///
+/// Static balance is `sum m r = 0`, dynamic balance that of forces and moments, which takes two planes [Notes ch. 5].
+/// Any dynamic unbalance is a static part, which acts in the centre of mass, and a couple part, two opposite
+/// unbalances in two planes. Derived.
 ///
 /// ```
 /// use driveline::balancing::{Complex, RigidUnbalance};

@@ -1,21 +1,4 @@
 //! Balancing by itself: a task of the main loop that reads, moves a head, confirms, judges, holds and remembers.
-//!
-//! [`BalancingTask::run`] is called at any rate. It begins each reading itself, after the head has arrived and the
-//! vibration has settled. A reading is used once, with the largest variance of all channels and the speed that it was
-//! taken at. [`InRun`] decides the moves.
-//!
-//! # When it begins
-//! At power-up the head goes to the weights of the record: the best ones, or those that it began with. Without a record
-//! it stays where it is, or goes to zero if it has no sensor. The task waits for steady readings between half of the
-//! service speed and 1.1 times. Another speed by more than 5 % begins anew, since the influence is another.
-//!
-//! # When it goes back
-//! The head goes back to those weights when the rotor stops, the sensor clips, eight readings in a row are refused,
-//! or [`InRun`] aborts.
-//!
-//! # When it ends
-//! At [`BalancingState::Held`] it goes on reading. Two readings in a row that are half as large again as at first, and
-//! beyond the tolerance, are a change of the rotor: balancing begins again.
 
 mod design;
 mod moves;
@@ -68,6 +51,23 @@ pub struct Look<N: VibrationNumber, const ROWS: usize, const EDGES: usize> {
 }
 
 /// A rotor that is balanced while it turns: of the machine `M`, by the head `H`, remembered by `K`.
+///
+/// [`BalancingTask::run`] is called at any rate. It begins each reading itself, after the head has arrived and the
+/// vibration has settled. A reading is used once, with the largest variance of all channels and the speed that it was
+/// taken at. [`InRun`] decides the moves.
+///
+/// # When it begins
+/// At power-up the head goes to the weights of the record: the best ones, or those that it began with. Without a record
+/// it stays where it is, or goes to zero if it has no sensor. The task waits for steady readings between half of the
+/// service speed and 1.1 times. Another speed by more than 5 % begins anew, since the influence is another.
+///
+/// # When it goes back
+/// The head goes back to those weights when the rotor stops, the sensor clips, eight readings in a row are refused,
+/// or [`InRun`] aborts.
+///
+/// # When it ends
+/// At [`BalancingState::Held`] it goes on reading. Two readings in a row that are half as large again as at first, and
+/// beyond the tolerance, are a change of the rotor: balancing begins again.
 ///
 /// ```
 #[doc = include_str!("grinder.txt")]

@@ -1,18 +1,4 @@
 //! Observer of two masses with a backlash between them, from the motor's angle alone.
-//!
-//! Two sets of gains, both steady states of a Kalman filter of the shaft in contact. The settled ones are
-//! [`TwoMass::observer`]'s. The searching ones are those of a shaft with random walks of twist and load speed: an open
-//! gap leaves the position of the flank and the speed of the impact unknown, and the filter draws both to their values
-//! within a few milliseconds of it.
-//!
-//! How far they are to wander and how long the searching gains stand is [`BacklashTuning`], in units of the gap and of
-//! the resonance. [`BacklashTuning::USUAL`] was found by search over two-mass machines of 5 to 150 Hz, motor to load
-//! from 3:1 to 1:4. The gaps were a third to the whole of the twist under rated torque, the reversals random.
-//!
-//! A motor that outweighs its load needs other numbers: a mill with 5.5 times the rolls' inertia that bites within
-//! 50 ms, 0.08, 0.12, 0.45 and 0.42 (`cargo lab backlash --bites 20`). An impact moves such a motor little, and
-//! lively gains follow noise. A load torque that wanders less leaves the innovations after the impact to twist and load
-//! speed.
 
 use super::tuning::{Disturbance, Encoder, Rate, Variances};
 use super::{Error, ExactStep, Kalman, Matrix, TwoMassDesign};
@@ -20,6 +6,20 @@ use crate::machine::TwoMass;
 use crate::math::sqrt;
 
 /// How the observer looks for the flank after an open gap.
+///
+/// Two sets of gains, both steady states of a Kalman filter of the shaft in contact. The settled ones are
+/// [`TwoMass::observer`]'s. The searching ones are those of a shaft with random walks of twist and load speed: an open
+/// gap leaves the position of the flank and the speed of the impact unknown, and the filter draws both to their values
+/// within a few milliseconds of it.
+///
+/// How far they are to wander and how long the searching gains stand is [`BacklashTuning`], in units of the gap and of
+/// the resonance. [`BacklashTuning::USUAL`] was found by search over two-mass machines of 5 to 150 Hz, motor to load
+/// from 3:1 to 1:4. The gaps were a third to the whole of the twist under rated torque, the reversals random.
+///
+/// A motor that outweighs its load needs other numbers: a mill with 5.5 times the rolls' inertia that bites within
+/// 50 ms, 0.08, 0.12, 0.45 and 0.42 (`cargo lab backlash --bites 20`). An impact moves such a motor little, and
+/// lively gains follow noise. A load torque that wanders less leaves the innovations after the impact to twist and load
+/// speed.
 ///
 /// ```
 /// use driveline::design::{BacklashDesign, BacklashTuning, Disturbance, Encoder, Rate};

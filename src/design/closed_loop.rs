@@ -1,10 +1,4 @@
 //! The speed loop with everything that is in it: machine, observer, governor, actuator, all sampled.
-//!
-//! Margins with estimates taken as exact are too large by up to a factor of ten: the observer follows a machine that
-//! differs from its model with a lag. Here the observer is in the loop, and the machine may differ from its model.
-//!
-//! The loop is cut at the torque on the machine. A gain above 1 there is a torque constant that is larger than
-//! described, or inertias and stiffness that are all smaller.
 
 use super::controller::Observer;
 use super::margins::{Margins, OpenLoop};
@@ -15,6 +9,12 @@ use crate::machine::TwoMass;
 use crate::math::{exp_m1, sin_cos, sqrt};
 
 /// A speed loop and its observer, apart from the machine: from the motor's angle and back to its torque.
+///
+/// Margins with estimates taken as exact are too large by up to a factor of ten: the observer follows a machine that
+/// differs from its model with a lag. Here the observer is in the loop, and the machine may differ from its model.
+///
+/// The loop is cut at the torque on the machine. A gain above 1 there is a torque constant that is larger than
+/// described, or inertias and stiffness that are all smaller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ClosedLoop {

@@ -1,9 +1,4 @@
 //! Observer and speed loop as one controller, from the motor's angle to the torque.
-//!
-//! `phi` and `omega` are the mean angle and speed, `delta` and `v` twist and twist rate. All states of the observer
-//! follow by the model's own step from the torque `tau` of the ended tick and from the innovation `i`. Eliminating `i`
-//! from `theta_m - theta_m^ = (1 - K_1) i` leaves the governor's torque as `u = -(Q tau + P theta_m)/D_o`. `D_o` is the
-//! polynomial of the observer's poles; all of it is in closed form, in `z - 1`.
 
 use super::complex::{Complex, over, plus, scaled, times};
 use super::plant::Twist;
@@ -176,6 +171,11 @@ pub(super) struct Motion {
 
 /// Observer and speed loop between the motor's angle and the torque: `u = -(Q tau + P theta_m)/D`, polynomials in
 /// `z - 1`, the constant first.
+///
+/// `phi` and `omega` are the mean angle and speed, `delta` and `v` twist and twist rate. All states of the observer
+/// follow by the model's own step from the torque `tau` of the ended tick and from the innovation `i`. Eliminating `i`
+/// from `theta_m - theta_m^ = (1 - K_1) i` leaves the governor's torque as `u = -(Q tau + P theta_m)/D_o`. `D_o` is the
+/// polynomial of the observer's poles; all of it is in closed form, in `z - 1`.
 ///
 /// ```
 #[doc = include_str!("../roll.txt")]

@@ -1,22 +1,4 @@
 //! Design of a governor with a slow actuator: a fuel rack, a steam valve.
-//!
-//! To a governor slower than the shaft's vibration the machine is one mass of the total inertia J. Dead time and lag of
-//! the actuator and the tick act as one equivalent delay T_s, their sum. With `a` the factor of the symmetrical
-//! optimum,
-//!
-//! - `k_p = J/(a T_s)`, `k_i = k_p/(a^2 T_s)`
-//!
-//! put the crossover at `1/(a T_s)`, the geometric mean of a range of `a^2` over which the phase stays above -180
-//! degrees: the symmetrical optimum [Kessler 1958, Regelungstechnik 6(11); Föllinger, Regelungstechnik, ch. 7]. For a
-//! true first-order lag the phase margin is `atan(a) - atan(1/a)`: 37 degrees at 2, 53 at 3.
-//!
-//! Margins are those of the full loop: two masses, sampled, with dead time, lag and feed-forward. P is the machine, A
-//! the actuator, C the controller, F the lag of the estimated load torque and g its share. The observer finds the load
-//! from the machine's motion and from the torque that acts. The loop cut at the actuator is therefore
-//! `A (C P + g F)/(1 - g F A)`. The closed loop is that of `A C P` alone, as long as the actuator matches its model;
-//! the margins cover the mismatch. At g = 1 the feed-forward integrates by itself. With a virtual inertia of the share
-//! s the estimated acceleration is that of the reported torque plus, delayed, that of the machine's motion. The loop is
-//! then `A (C P + s F)/(1 + s (1 - F) A)`.
 
 use super::late_loop::{Averaging, Late, LateLoop};
 use super::margins::{Margins, OpenLoop};
@@ -114,6 +96,24 @@ pub struct VirtualInertia {
 }
 
 /// Design of a governor for a slow actuator.
+///
+/// To a governor slower than the shaft's vibration the machine is one mass of the total inertia J. Dead time and lag of
+/// the actuator and the tick act as one equivalent delay T_s, their sum. With `a` the factor of the symmetrical
+/// optimum,
+///
+/// - `k_p = J/(a T_s)`, `k_i = k_p/(a^2 T_s)`
+///
+/// put the crossover at `1/(a T_s)`, the geometric mean of a range of `a^2` over which the phase stays above -180
+/// degrees: the symmetrical optimum [Kessler 1958, Regelungstechnik 6(11); Föllinger, Regelungstechnik, ch. 7]. For a
+/// true first-order lag the phase margin is `atan(a) - atan(1/a)`: 37 degrees at 2, 53 at 3.
+///
+/// Margins are those of the full loop: two masses, sampled, with dead time, lag and feed-forward. P is the machine, A
+/// the actuator, C the controller, F the lag of the estimated load torque and g its share. The observer finds the load
+/// from the machine's motion and from the torque that acts. The loop cut at the actuator is therefore
+/// `A (C P + g F)/(1 - g F A)`. The closed loop is that of `A C P` alone, as long as the actuator matches its model;
+/// the margins cover the mismatch. At g = 1 the feed-forward integrates by itself. With a virtual inertia of the share
+/// s the estimated acceleration is that of the reported torque plus, delayed, that of the machine's motion. The loop is
+/// then `A (C P + s F)/(1 + s (1 - F) A)`.
 ///
 /// ```
 /// use driveline::design::{Actuator, LoadFeedForward, Rate};

@@ -1,9 +1,4 @@
 //! Design of an input shaper: a setpoint that leaves no vibration behind.
-//!
-//! A change of the setpoint is given in parts, half a damped period apart. Each part's vibration cancels that of the
-//! parts before it. With `K = exp(-zeta pi/sqrt(1 - zeta^2))`, the decay within half a period, two parts have the
-//! shares `1/(1+K)` and `K/(1+K)` (zero vibration, ZV); three have those of two such pairs in a row (ZVD, zero
-//! derivative by the frequency) [Singer and Seering 1990, J. Dyn. Syst. Meas. Control 112(1); Smith 1957, posicast].
 
 use core::f64::consts::PI;
 
@@ -12,6 +7,11 @@ use crate::machine::{Length, STANDARD_GRAVITY};
 use crate::math::{exp, hypot, sin_cos, sqrt};
 
 /// Design of an [`InputShaper`](crate::governor::InputShaper).
+///
+/// A change of the setpoint is given in parts, half a damped period apart. Each part's vibration cancels that of the
+/// parts before it. With `K = exp(-zeta pi/sqrt(1 - zeta^2))`, the decay within half a period, two parts have the
+/// shares `1/(1+K)` and `K/(1+K)` (zero vibration, ZV); three have those of two such pairs in a row (ZVD, zero
+/// derivative by the frequency) [Singer and Seering 1990, J. Dyn. Syst. Meas. Control 112(1); Smith 1957, posicast].
 ///
 /// ```
 /// use driveline::design::InputShaperDesign;

@@ -1,7 +1,4 @@
 //! Observer of two masses from the motor's angle alone.
-//!
-//! The state is `[theta_m, omega_m, delta, omega_l, tau_L]` (rad, rad/s, rad, rad/s, N m), the input the motor's
-//! torque. The transition is exact: momentum moves as one rigid machine, and the twist by [`ExactStep`].
 
 use super::tuning::{Disturbance, Encoder, Rate, Variances};
 use super::{Error, ExactStep, Kalman, Matrix, SemiImplicitStep, StepChoice, eigenvalues, spectral_radius};
@@ -30,6 +27,9 @@ pub struct StandardDeviation {
 }
 
 /// A finished observer of two masses.
+///
+/// The state is `[theta_m, omega_m, delta, omega_l, tau_L]` (rad, rad/s, rad, rad/s, N m), the input the motor's
+/// torque. The transition is exact: momentum moves as one rigid machine, and the twist by [`ExactStep`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TwoMassDesign {

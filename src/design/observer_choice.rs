@@ -1,18 +1,4 @@
 //! Selection of an observer, by the error of each simplification.
-//!
-//! A change of torque, of the motor's or the load's, sets the shaft swinging. A rigid observer shows the steady part of
-//! the shaft's torque and not the swing; an observer that takes a gap for closed does not see the blow with which it
-//! closes. Both errors follow from the machine and its load cycle:
-//!
-//! - a change D that takes the time r sets off a swing of at most `D min(1, 2/(w r))` times the larger share of the
-//!   inertia [derived; headings: Huang 1987 ch. 3 to 7];
-//! - a gap that is crossed under the torque D closes at `v = sqrt(2 D gap/J_m)`, and the blow swings by `v sqrt(k J_r)`
-//!   [derived; headings: Huang 1987 ch. 3 to 7];
-//! - a swing A in the shaft's torque is one of `A w/k J_m/J` in the load's speed, and decays as `exp(-zeta w t)` until
-//!   the next change.
-//!
-//! The figures are rms over the time between two changes. Noise and lag, common to all observers, come on top. A
-//! simpler observer is therefore chosen only where its error is at most half of the requirement.
 
 use super::{EstimateError, SemiImplicitStep, StepChoice};
 use crate::machine::TwoMass;
@@ -86,6 +72,20 @@ pub enum ObserverChoice {
 }
 
 /// Errors of each observer, and the cheapest that meets the requirement.
+///
+/// A change of torque, of the motor's or the load's, sets the shaft swinging. A rigid observer shows the steady part of
+/// the shaft's torque and not the swing; an observer that takes a gap for closed does not see the blow with which it
+/// closes. Both errors follow from the machine and its load cycle:
+///
+/// - a change D that takes the time r sets off a swing of at most `D min(1, 2/(w r))` times the larger share of the
+///   inertia [derived; headings: Huang 1987 ch. 3 to 7];
+/// - a gap that is crossed under the torque D closes at `v = sqrt(2 D gap/J_m)`, and the blow swings by `v sqrt(k J_r)`
+///   [derived; headings: Huang 1987 ch. 3 to 7];
+/// - a swing A in the shaft's torque is one of `A w/k J_m/J` in the load's speed, and decays as `exp(-zeta w t)` until
+///   the next change.
+///
+/// The figures are rms over the time between two changes. Noise and lag, common to all observers, come on top. A
+/// simpler observer is therefore chosen only where its error is at most half of the requirement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ObserverSelection {

@@ -1,17 +1,4 @@
 //! Observer of two masses by pole placement: for the points of a gain schedule, or from a bandwidth.
-//!
-//! A schedule has dozens of points, and the Riccati equation of each would cost the compiler a third of a second. In a
-//! schedule the poles are those of the continuous Kalman filter, which are the left roots of a polynomial in `X = s^2`
-//! (symmetric root locus [Kwakernaak and Sivan 1972, Linear Optimal Control Systems, §5.5]),
-//!
-//! ```text
-//! X^3 ((X + w^2)^2 - (2a)^2 X) + q_m X ((X/J_m + c)^2 - e^2 X) - q_l (c^2 - e^2 X) = 0,
-//! c = k/(J_m J_l),  e = d/(J_m J_l)
-//! ```
-//!
-//! with q_m and q_l the intensities of the motor's and the load's torque over that of the angle's noise. The gains put
-//! the poles of the exact sampled machine there (Ackermann's formula), so the observer is stable. Gains whose poles
-//! rounding has moved are refused.
 
 use super::observer::transition;
 use super::tuning::{Disturbance, Encoder, Rate, Variances};
@@ -20,6 +7,19 @@ use crate::machine::TwoMass;
 use crate::math::{exp, exp_m1, hypot, ln, sin_cos, sqrt};
 
 /// Gains of an observer of two masses, without its covariances.
+///
+/// A schedule has dozens of points, and the Riccati equation of each would cost the compiler a third of a second. In a
+/// schedule the poles are those of the continuous Kalman filter, which are the left roots of a polynomial in `X = s^2`
+/// (symmetric root locus [Kwakernaak and Sivan 1972, Linear Optimal Control Systems, §5.5]),
+///
+/// ```text
+/// X^3 ((X + w^2)^2 - (2a)^2 X) + q_m X ((X/J_m + c)^2 - e^2 X) - q_l (c^2 - e^2 X) = 0,
+/// c = k/(J_m J_l),  e = d/(J_m J_l)
+/// ```
+///
+/// with q_m and q_l the intensities of the motor's and the load's torque over that of the angle's noise. The gains put
+/// the poles of the exact sampled machine there (Ackermann's formula), so the observer is stable. Gains whose poles
+/// rounding has moved are refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PlacedObserver {

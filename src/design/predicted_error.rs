@@ -1,19 +1,4 @@
 //! Prediction of an observer's errors over the tolerances of machine, motor and encoder.
-//!
-//! To the first order, with deviations that are independent of one another, the squares of these parts add:
-//!
-//! - **static**: at the motor's torque T and the acceleration a, a torque constant that is off by g, an offset o, a
-//!   gear's efficiency that is off by e and inertias that are off by `j_m`, `j_l` make errors of
-//!   `g^2 T^2 + o^2 + e^2 T^2 + j_m^2 a^2` of the shaft torque, squared, and with `(j_m + j_l)^2` of the load torque;
-//! - **encoder**: a periodic error of the angle passes through the estimates as `C (1 - A/z)^-1 K`, A = (1 - K H) F the
-//!   observer's transition, at `z = e^(j w T)` with w the error's periods on a turn times the speed;
-//! - **noise** of torque, count and jitter: white, by the covariance `P = A P A^T + K r K^T + b q b^T`,
-//!   b = (1 - K H) B;
-//! - **swing**: a free swing of the shaft of a machine that differs from the model, with the eigenvalue s, turns the
-//!   motor by `theta`. It has the shaft torque `-J_m s^2 theta`; the estimates are the response above at `z = e^(s T)`.
-//!
-//! A deviation is uniform within its tolerance: its variance is that of a uniform distribution, and means over the
-//! machines are taken by Gauss' formula of three points for each of inertias and stiffness.
 
 use super::complex::{Complex, over, times};
 use super::observer::transition;
@@ -41,6 +26,21 @@ pub struct Operation {
 }
 
 /// Predicted errors by their causes.
+///
+/// To the first order, with deviations that are independent of one another, the squares of these parts add:
+///
+/// - **static**: at the motor's torque T and the acceleration a, a torque constant that is off by g, an offset o, a
+///   gear's efficiency that is off by e and inertias that are off by `j_m`, `j_l` make errors of
+///   `g^2 T^2 + o^2 + e^2 T^2 + j_m^2 a^2` of the shaft torque, squared, and with `(j_m + j_l)^2` of the load torque;
+/// - **encoder**: a periodic error of the angle passes through the estimates as `C (1 - A/z)^-1 K`, A = (1 - K H) F the
+///   observer's transition, at `z = e^(j w T)` with w the error's periods on a turn times the speed;
+/// - **noise** of torque, count and jitter: white, by the covariance `P = A P A^T + K r K^T + b q b^T`,
+///   b = (1 - K H) B;
+/// - **swing**: a free swing of the shaft of a machine that differs from the model, with the eigenvalue s, turns the
+///   motor by `theta`. It has the shaft torque `-J_m s^2 theta`; the estimates are the response above at `z = e^(s T)`.
+///
+/// A deviation is uniform within its tolerance: its variance is that of a uniform distribution, and means over the
+/// machines are taken by Gauss' formula of three points for each of inertias and stiffness.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PredictedErrors {

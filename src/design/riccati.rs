@@ -1,11 +1,4 @@
 //! The discrete algebraic Riccati equation, by structure-preserving doubling.
-//!
-//! [Chu, Fan, Lin, Wang 2004, Int. J. Control 77(8)]: each iteration doubles the horizon of the solution, so some
-//! twenty suffice from a millisecond to a quarter of an hour. It converges quadratically and keeps the solution
-//! symmetric and positive.
-//!
-//! The states may have units of very different sizes. Rows are chosen in units of the standard deviations found so far;
-//! as powers of two they round nothing.
 
 mod five;
 
@@ -17,6 +10,13 @@ use five::{Solver, Square};
 /// Where H vanishes the doubling stays at zero, which stabilises only an A that is stable already.
 ///
 /// `None` where it does not converge within 60 doublings: no stabilising solution, or one at the edge of stability.
+///
+/// [Chu, Fan, Lin, Wang 2004, Int. J. Control 77(8)]: each iteration doubles the horizon of the solution, so some
+/// twenty suffice from a millisecond to a quarter of an hour. It converges quadratically and keeps the solution
+/// symmetric and positive.
+///
+/// The states may have units of very different sizes. Rows are chosen in units of the standard deviations found so far;
+/// as powers of two they round nothing.
 #[must_use]
 pub const fn doubling<const N: usize>(a: &Matrix<N, N>, g: &Matrix<N, N>, h: &Matrix<N, N>) -> Option<Matrix<N, N>> {
     if let (Some(a), Some(g), Some(h)) = (five::square(a), five::square(g), five::square(h)) {

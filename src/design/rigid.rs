@@ -1,6 +1,4 @@
 //! Observer of a rigid machine from the motor's angle alone.
-//!
-//! The state is `[theta, omega, tau_L]` (rad, rad/s, N m), the input the motor's torque.
 
 use super::tuning::{Disturbance, Encoder, Rate, Variances};
 use super::{Error, Kalman, Matrix};
@@ -8,6 +6,8 @@ use crate::machine::Rigid;
 use crate::math::sqrt;
 
 /// A finished observer of a rigid machine.
+///
+/// The state is `[theta, omega, tau_L]` (rad, rad/s, N m), the input the motor's torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RigidDesign {

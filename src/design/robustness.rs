@@ -1,9 +1,4 @@
 //! Robustness of a speed loop: margins at the described machine, stability within its tolerances.
-//!
-//! The characteristic polynomial is linear in each of load inertia, stiffness and torque, not in all together, and the
-//! sampled machine is neither. So ends that are stable do not make a range stable. A wide range is dangerous: as the
-//! resonance moves through it, the loop's phase there may be bad in the middle alone. Hence a range is sampled at
-//! points of which each is at most twice the one before. The usual ranges have their two ends.
 
 use super::closed_loop::{ClosedLoop, Mapped};
 use super::margins::Margins;
@@ -12,6 +7,11 @@ use super::{Actuator, Error, PlacedObserver, RigidDesign, SpeedLoopDesign, Toler
 use crate::machine::TwoMass;
 
 /// The least margins of a speed loop.
+///
+/// The characteristic polynomial is linear in each of load inertia, stiffness and torque, not in all together, and the
+/// sampled machine is neither. So ends that are stable do not make a range stable. A wide range is dangerous: as the
+/// resonance moves through it, the loop's phase there may be bad in the middle alone. Hence a range is sampled at
+/// points of which each is at most twice the one before. The usual ranges have their two ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Robustness {

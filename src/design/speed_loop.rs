@@ -1,16 +1,4 @@
 //! Gains of the speed loop: proportional, integral, and active damping of the shaft by the estimated twist rate.
-//!
-//! With `tau_m = K_p e + K_i int e - K_v v`, e the error of the motor's speed and v the twist rate, the undamped
-//! machine has the closed loop `s^4 + (k_p + k_v) s^3 + (k_i + w_r^2) s^2 + k_p w_a^2 s + k_i w_a^2`. Its gains are per
-//! motor inertia; w_r is the resonance and w_a the antiresonance. Setting it equal to `(s^2 + 2 z1 w1 s + w1^2)(s^2 + 2
-//! z2 w2 s + w2^2)` fixes all gains and w2 once w1, z1, z2 are chosen:
-//!
-//! - `(1 - b^2) w2^2 + 4 z1 z2 w1 w2 + w1^2 - w_r^2 = 0` with `b = w1/w_a`: one positive root for every b below 1, and
-//!   for every w1 above w_r;
-//! - `k_i = b^2 w2^2`, `k_p = 2 w1 w2 (z1 w2 + z2 w1)/w_a^2`, `k_v = 2 z1 w1 + 2 z2 w2 - k_p`.
-//!
-//! Pole placement by the coefficients, after [Zhang and Furusho 2000, IEEE Trans. Ind. Electron. 47(3)], with the twist
-//! rate added.
 
 use super::tuning::Rate;
 use super::{Error, ExactStep, Matrix, eigenvalues, spectral_radius};
@@ -85,6 +73,18 @@ impl SpeedLoopTuning {
 }
 
 /// A finished speed loop.
+///
+/// With `tau_m = K_p e + K_i int e - K_v v`, e the error of the motor's speed and v the twist rate, the undamped
+/// machine has the closed loop `s^4 + (k_p + k_v) s^3 + (k_i + w_r^2) s^2 + k_p w_a^2 s + k_i w_a^2`. Its gains are per
+/// motor inertia; w_r is the resonance and w_a the antiresonance. Setting it equal to `(s^2 + 2 z1 w1 s + w1^2)(s^2 + 2
+/// z2 w2 s + w2^2)` fixes all gains and w2 once w1, z1, z2 are chosen:
+///
+/// - `(1 - b^2) w2^2 + 4 z1 z2 w1 w2 + w1^2 - w_r^2 = 0` with `b = w1/w_a`: one positive root for every b below 1, and
+///   for every w1 above w_r;
+/// - `k_i = b^2 w2^2`, `k_p = 2 w1 w2 (z1 w2 + z2 w1)/w_a^2`, `k_v = 2 z1 w1 + 2 z2 w2 - k_p`.
+///
+/// Pole placement by the coefficients, after [Zhang and Furusho 2000, IEEE Trans. Ind. Electron. 47(3)], with the twist
+/// rate added.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpeedLoopDesign {

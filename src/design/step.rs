@@ -1,20 +1,20 @@
 //! The exact step of two masses over one tick, in closed form.
-//!
-//! Twist and twist rate are a closed pair: `delta' = v`, `v' = s - w^2 delta - 2 a v` with `w^2 = k/J_r`,
-//! `2 a = d/J_r`, `J_r = J_m J_l/(J_m + J_l)`, and s constant over the tick. Everything follows from the answer to a
-//! unit step of s from rest, `g1(t) = delta` and `g2(t) = v = g1'(t)`:
-//!
-//! `n11 = -w^2 g1`, `n12 = g2`, `n21 = -w^2 g2`, `n22 = -(w^2 g1 + 2 a g2)`.
-//!
-//! Both are computed without cancellation at any damping and any `w T`: near the start by Taylor's series of the
-//! differential equation, elsewhere by sines, by exponentials of the two real roots, or by series in the distance
-//! from critical damping.
 
 use crate::machine::TwoMass;
 use crate::math::{exp, exp_m1, sin_cos, sqrt};
 
 /// Exact zero-order-hold step in increments:
 /// `delta += n11 delta + n12 v + g1 s`, `v += n21 delta + n22 v + g2 s`, right sides at the old tick.
+///
+/// Twist and twist rate are a closed pair: `delta' = v`, `v' = s - w^2 delta - 2 a v` with `w^2 = k/J_r`,
+/// `2 a = d/J_r`, `J_r = J_m J_l/(J_m + J_l)`, and s constant over the tick. Everything follows from the answer to a
+/// unit step of s from rest, `g1(t) = delta` and `g2(t) = v = g1'(t)`:
+///
+/// `n11 = -w^2 g1`, `n12 = g2`, `n21 = -w^2 g2`, `n22 = -(w^2 g1 + 2 a g2)`.
+///
+/// Both are computed without cancellation at any damping and any `w T`: near the start by Taylor's series of the
+/// differential equation, elsewhere by sines, by exponentials of the two real roots, or by series in the distance
+/// from critical damping.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ExactStep {

@@ -1,9 +1,4 @@
 //! Limits of the supervision: how far a machine within its tolerances departs from what its drive expects.
-//!
-//! The observer's innovation answers within milliseconds to a torque that the drive knows nothing of. Its largest
-//! response to a step of one newton metre, at the motor and at the load, follows from transition and gains. A machine
-//! within its tolerances has such torques up to the error of the torque constant at the torque limit, the offset, the
-//! acceleration of inertias that differ, and the largest step of its load. A fault is beyond their sum.
 
 use super::{Encoder, RigidDesign, Tolerance, TwoMassDesign};
 use crate::configure::Rating;
@@ -13,6 +8,11 @@ use crate::settings::Screening;
 const LONGEST: u32 = 30_000;
 
 /// Limits of a drive's supervision, in SI units.
+///
+/// The observer's innovation answers within milliseconds to a torque that the drive knows nothing of. Its largest
+/// response to a step of one newton metre, at the motor and at the load, follows from transition and gains. A machine
+/// within its tolerances has such torques up to the error of the torque constant at the torque limit, the offset, the
+/// acceleration of inertias that differ, and the largest step of its load. A fault is beyond their sum.
 ///
 /// ```
 #[doc = include_str!("../roll.txt")]

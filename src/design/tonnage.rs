@@ -1,17 +1,4 @@
 //! Force at the tool of a mechanism, from the estimated load torque: tonnage without a load cell.
-//!
-//! With the leverage `y'(phi)` at the motor and the idle torque tau_0 of bearings and guides,
-//!
-//! ```text
-//! F = (tau_L - tau_0)/y',    s_F^2 = (s_tau^2 + (a tau)^2)/y'^2 + (F s_phi y''/y')^2
-//! ```
-//!
-//! [force: Wang 1989 (1-12); deviation: derived]. s_tau is the observer's standard deviation, a the relative accuracy
-//! of torque and inertia, s_phi that of the crank's angle. Near the dead centres the leverage vanishes, and a motor
-//! sees no force.
-//!
-//! The observer follows a load torque that rises evenly with the delay `J |K_omega/K_tau|` \[derived\], K its gains. The
-//! force is that of the angle where the crank was then.
 
 use core::f64::consts::TAU;
 
@@ -20,6 +7,19 @@ use crate::machine::{DrivenMechanism, MECHANISM_POINTS};
 use crate::math::hypot;
 
 /// Accuracy of a tool's force, as standard deviations.
+///
+/// With the leverage `y'(phi)` at the motor and the idle torque tau_0 of bearings and guides,
+///
+/// ```text
+/// F = (tau_L - tau_0)/y',    s_F^2 = (s_tau^2 + (a tau)^2)/y'^2 + (F s_phi y''/y')^2
+/// ```
+///
+/// [force: Wang 1989 (1-12); deviation: derived]. s_tau is the observer's standard deviation, a the relative accuracy
+/// of torque and inertia, s_phi that of the crank's angle. Near the dead centres the leverage vanishes, and a motor
+/// sees no force.
+///
+/// The observer follows a load torque that rises evenly with the delay `J |K_omega/K_tau|` \[derived\], K its gains. The
+/// force is that of the angle where the crank was then.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ForceAccuracy {

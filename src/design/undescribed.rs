@@ -1,14 +1,4 @@
 //! A resonance that a description leaves out, and whether a speed loop is stable with it.
-//!
-//! A shaft, a frame or a foundation that nobody described adds a vibration to what the motor feels: `r/(w_0^2 - w^2 + 2
-//! j z w_0 w)` in its angle per torque. M is the loop's torque per angle that is added to the measured one, closed
-//! round the described machine. The loop turns unstable where `1 + M r/(w_0^2 - w^2 + 2 j z w_0 w)` is zero at a
-//! frequency w: `w_0^2 = w^2 - r Re M` and `-r Im M = 2 z w_0 w`. It starts from a stable loop at r = 0. So it is stable
-//! with every such vibration if `-r Im M < 2 z w_0 w` at every w, for the largest r that leaves w_0 within its range.
-//!
-//! Where the imaginary part of M is positive, the motor damps whatever it drives, and any weight will do; where M is
-//! small, the vibration's own damping will do. This mixes passivity and small gain [Griggs, Anderson, Lanzon 2007,
-//! Syst. Control Lett. 56(9-10)].
 
 use super::closed_loop::ClosedLoop;
 use super::complex::{over, times};
@@ -16,6 +6,16 @@ use super::plant::Plant;
 use crate::math::{sin_cos, sqrt};
 
 /// One resonance that the description leaves out, anywhere above a frequency.
+///
+/// A shaft, a frame or a foundation that nobody described adds a vibration to what the motor feels: `r/(w_0^2 - w^2 + 2
+/// j z w_0 w)` in its angle per torque. M is the loop's torque per angle that is added to the measured one, closed
+/// round the described machine. The loop turns unstable where `1 + M r/(w_0^2 - w^2 + 2 j z w_0 w)` is zero at a
+/// frequency w: `w_0^2 = w^2 - r Re M` and `-r Im M = 2 z w_0 w`. It starts from a stable loop at r = 0. So it is stable
+/// with every such vibration if `-r Im M < 2 z w_0 w` at every w, for the largest r that leaves w_0 within its range.
+///
+/// Where the imaginary part of M is positive, the motor damps whatever it drives, and any weight will do; where M is
+/// small, the vibration's own damping will do. This mixes passivity and small gain [Griggs, Anderson, Lanzon 2007,
+/// Syst. Control Lett. 56(9-10)].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Undescribed {

@@ -1,8 +1,4 @@
 //! The last ticks of a drive, kept for a replay.
-//!
-//! A [`Recorded`] drive keeps what each tick was given, and twice in so many ticks its own state. A replay starts from
-//! such a state and gives the same commands, bit for bit, on the desk as on the board. At the first of the tripping
-//! faults the record is kept as it is, with the fault, until [`Recorded::release`].
 
 use super::composition::handed_on;
 use super::{Composition, ConfigOf, GovernorConfigOf, ObserverConfigOf, VibrationOf};
@@ -45,6 +41,10 @@ struct Block<D: Composition, const K: usize> {
 ///
 /// It records ticks, [`Drive::hold`](super::Drive::hold) and [`Drive::engage`](super::Drive::engage). A change by
 /// [`Recorded::drive_mut`] or [`Drive::switch`](super::Drive::switch) begins a new record.
+///
+/// A [`Recorded`] drive keeps what each tick was given, and twice in so many ticks its own state. A replay starts from
+/// such a state and gives the same commands, bit for bit, on the desk as on the board. At the first of the tripping
+/// faults the record is kept as it is, with the fault, until [`Recorded::release`].
 ///
 /// ```
 #[doc = include_str!("../roll.txt")]

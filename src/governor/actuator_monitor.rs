@@ -1,22 +1,22 @@
 //! Actuator position monitor.
-//!
-//! A rack or a valve follows its command with known lags. The measured position is compared with the command behind
-//! these lags. Beyond a tolerance the position is rejected and the expected torque replaces it, so that the observer is
-//! not misled. Beyond the timeout the actuator sticks or its sensor has failed, and the machine must be tripped. The
-//! torque alone does not distinguish the two.
-//!
-//! - **position as expected**, to the tolerance: accepted.
-//! - **beyond the tolerance**: dropped, negated, noisy, stuck: the expected torque instead, [`Faults::TORQUE`]; after
-//!   the timeout [`Trip::Actuator`].
-//! - **no torque**: NaN, infinite, beyond the actuator's range: the same, and [`Trip::SensorLoss`].
-//! - **frozen at what is still expected**: accepted: it is right; detected when the command moves by more than the
-//!   tolerance.
 
 use super::Trip;
 use crate::fault::Faults;
 use crate::number::Number;
 
 /// Monitors an actuator of `K` lags in a row, at least one.
+///
+/// A rack or a valve follows its command with known lags. The measured position is compared with the command behind
+/// these lags. Beyond a tolerance the position is rejected and the expected torque replaces it, so that the observer is
+/// not misled. Beyond the timeout the actuator sticks or its sensor has failed, and the machine must be tripped. The
+/// torque alone does not distinguish the two.
+///
+/// - **position as expected**, to the tolerance: accepted.
+/// - **beyond the tolerance**: dropped, negated, noisy, stuck: the expected torque instead, [`Faults::TORQUE`]; after
+///   the timeout [`Trip::Actuator`].
+/// - **no torque**: NaN, infinite, beyond the actuator's range: the same, and [`Trip::SensorLoss`].
+/// - **frozen at what is still expected**: accepted: it is right; detected when the command moves by more than the
+///   tolerance.
 ///
 /// ```
 /// use driveline::governor::{ActuatorMonitor, ActuatorMonitorConfig, Trip};

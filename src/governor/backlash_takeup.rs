@@ -1,25 +1,5 @@
 //! Backlash take-up: a limit around another one that closes an open gap with little torque, ramps the torque up on the
 //! flank that it drives, and damps the shaft.
-//!
-//! A motor that accelerates freely through a gap meets the load at a relative speed delta omega, and the impact adds
-//! `delta omega sqrt(k J_m J_l/(J_m + J_l))` to the shaft's torque [derived; headings: Huang 1987 ch. 3 to 7]; a torque
-//! applied at once adds its share of the load's inertia a second time. So
-//!
-//! - the reach, the largest torque of the governor, rises by a step a tick while the shaft is on the flank that the
-//!   governor's torque drives. Then the torque builds up over part of a period of the resonance, and a shaft in contact
-//!   for longer is not limited;
-//! - in the gap and on the other flank the reach falls, down to a small torque;
-//! - in the gap a damping of the twist rate brakes: the gap closes at about the approach speed, torque over damping, at
-//!   most;
-//! - in contact, `-k_d (omega_m - omega_l)` damps the shaft.
-//!
-//! The gap counts as open where the estimated shaft torque is exactly zero, as in
-//! [`BacklashObserver`](crate::observer::BacklashObserver). An observer of a motor that is heavier than described finds
-//! contact too early, mostly on the flank that the motor leaves: there the torque must not build up.
-//!
-//! The limit does not wind up the integral of its [`SpeedGovernor`](super::SpeedGovernor), and its ramp tracks: while
-//! the reach withholds torque, the ramped setpoint waits. Otherwise the error grows through the gap, and the motor
-//! meets the flank under its largest torque.
 
 use super::Limit;
 use crate::number::Number;
@@ -48,6 +28,26 @@ pub struct BacklashTakeUpConfig<N: Number, L> {
 }
 
 /// Another limit, and an open gap is closed with little torque.
+///
+/// A motor that accelerates freely through a gap meets the load at a relative speed delta omega, and the impact adds
+/// `delta omega sqrt(k J_m J_l/(J_m + J_l))` to the shaft's torque [derived; headings: Huang 1987 ch. 3 to 7]; a torque
+/// applied at once adds its share of the load's inertia a second time. So
+///
+/// - the reach, the largest torque of the governor, rises by a step a tick while the shaft is on the flank that the
+///   governor's torque drives. Then the torque builds up over part of a period of the resonance, and a shaft in contact
+///   for longer is not limited;
+/// - in the gap and on the other flank the reach falls, down to a small torque;
+/// - in the gap a damping of the twist rate brakes: the gap closes at about the approach speed, torque over damping, at
+///   most;
+/// - in contact, `-k_d (omega_m - omega_l)` damps the shaft.
+///
+/// The gap counts as open where the estimated shaft torque is exactly zero, as in
+/// [`BacklashObserver`](crate::observer::BacklashObserver). An observer of a motor that is heavier than described finds
+/// contact too early, mostly on the flank that the motor leaves: there the torque must not build up.
+///
+/// The limit does not wind up the integral of its [`SpeedGovernor`](super::SpeedGovernor), and its ramp tracks: while
+/// the reach withholds torque, the ramped setpoint waits. Otherwise the error grows through the gap, and the motor
+/// meets the flank under its largest torque.
 ///
 /// ```
 /// use driveline::governor::{BacklashTakeUp, BacklashTakeUpConfig, Limit, SymmetricLimit, SymmetricLimitConfig};

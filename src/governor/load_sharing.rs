@@ -1,26 +1,4 @@
 //! Load sharing of several motors on one gear, with a torque bias against backlash.
-//!
-//! A ring gear has `n` pinions, each with a motor, a gearbox and backlash of its own. The governor commands one torque
-//! `tau` for all of them, from the mean of their angles. Each motor gets its share; every other one gets a bias `b`
-//! more, the ones between get as much less:
-//!
-//! ```text
-//! tau_k = tau/n +- b - d_k,     b towards |tau_s|/n + preload,     tau_s the estimated shaft torque
-//! ```
-//!
-//! So one half of the pinions carries the load on the forward flanks and the other half stays on its backward flanks
-//! with the preload, or the other way round, whatever sign the load has: the torque reverses and no flank is left. The
-//! sum is `tau` whatever the bias, but where a motor's damping is cut at its limit. The price is that half of the
-//! motors carry the load, twice its share each.
-//!
-//! Above a limit of `|tau_s|/n` all motors share the load equally, until it has fallen below another limit. Then the
-//! holding pinions cross their backlash, while the others carry the load. The bias changes by a slew, so that they
-//! cross it slowly; where a motor's torque limit leaves it less room, it falls at once.
-//!
-//! Motors that swing against each other are not seen in their mean, and no governor of the mean damps them. `d_k` does:
-//! a damping of the speed by which motor `k` deviates from the mean, `k_d w/(s + w) s`, from its angle.
-//!
-//! [Derived; heading: Huang 1987 ch. 8 and 12.]
 
 use crate::number::Number;
 
@@ -48,7 +26,29 @@ pub struct LoadSharingConfig<N: Number> {
     pub max_deviation: i32,
 }
 
-/// State of the load sharing of `MOTORS` motors, an even number of them.
+/// Load sharing of `MOTORS` motors, an even number of them.
+///
+/// A ring gear has `n` pinions, each with a motor, a gearbox and backlash of its own. The governor commands one torque
+/// `tau` for all of them, from the mean of their angles. Each motor gets its share; every other one gets a bias `b`
+/// more, the ones between get as much less:
+///
+/// ```text
+/// tau_k = tau/n +- b - d_k,     b towards |tau_s|/n + preload,     tau_s the estimated shaft torque
+/// ```
+///
+/// So one half of the pinions carries the load on the forward flanks and the other half stays on its backward flanks
+/// with the preload, or the other way round, whatever sign the load has: the torque reverses and no flank is left. The
+/// sum is `tau` whatever the bias, but where a motor's damping is cut at its limit. The price is that half of the
+/// motors carry the load, twice its share each.
+///
+/// Above a limit of `|tau_s|/n` all motors share the load equally, until it has fallen below another limit. Then the
+/// holding pinions cross their backlash, while the others carry the load. The bias changes by a slew, so that they
+/// cross it slowly; where a motor's torque limit leaves it less room, it falls at once.
+///
+/// Motors that swing against each other are not seen in their mean, and no governor of the mean damps them. `d_k` does:
+/// a damping of the speed by which motor `k` deviates from the mean, `k_d w/(s + w) s`, from its angle.
+///
+/// [Derived; heading: Huang 1987 ch. 8 and 12.]
 ///
 /// ```
 /// use driveline::governor::{LoadSharing, LoadSharingConfig};

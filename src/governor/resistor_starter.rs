@@ -1,6 +1,4 @@
 //! Start of a slip-ring motor: its resistors are cut out one after another, by the speed.
-//!
-//! [`Induction::resistor_start`](crate::machine::Induction::resistor_start) finds resistors and speeds.
 
 use crate::number::Number;
 
@@ -15,6 +13,8 @@ pub struct ResistorStarterConfig<N, const STEPS: usize> {
 }
 
 /// Counts the resistors that are cut out. None is put back by a falling speed: [`restart`](Self::restart) does that.
+///
+/// [`Induction::resistor_start`](crate::machine::Induction::resistor_start) finds resistors and speeds.
 ///
 /// ```
 /// use driveline::governor::{ResistorStarter, ResistorStarterConfig};

@@ -1,15 +1,4 @@
 //! Run and stop sequence of a governed machine, and its trips.
-//!
-//! ```text
-//! Stopped -- start --> Starting -- speed in the running range --> Running
-//!    ^                    |  ^                                       |
-//!    +-- standstill -- Braking --------------- stop <----------------+
-//!
-//! any of them -- trip --> Tripped(reason) -- reset --> Stopped
-//! ```
-//!
-//! A stopped machine is not monitored: it trips only on [request](Sequencer::request) or by [`trip`](Sequencer::trip).
-//! Stopped and tripped machines have no torque. A trip keeps its first cause until it is reset.
 
 use super::SpeedRange;
 use crate::number::Number;
@@ -194,6 +183,17 @@ pub struct SequencerConfig<N> {
 }
 
 /// The run sequence of a machine, with its trips.
+///
+/// ```text
+/// Stopped -- start --> Starting -- speed in the running range --> Running
+///    ^                    |  ^                                       |
+///    +-- standstill -- Braking --------------- stop <----------------+
+///
+/// any of them -- trip --> Tripped(reason) -- reset --> Stopped
+/// ```
+///
+/// A stopped machine is not monitored: it trips only on [request](Sequencer::request) or by [`trip`](Sequencer::trip).
+/// Stopped and tripped machines have no torque. A trip keeps its first cause until it is reset.
 ///
 /// ```
 /// use driveline::configure::Rating;

@@ -1,6 +1,4 @@
 //! Start of an induction motor by reduced voltage, under a torque limit.
-//!
-//! [`Induction::soft_start`](crate::machine::Induction::soft_start) has the starting time.
 
 use crate::number::Number;
 
@@ -17,6 +15,8 @@ pub struct SoftStarterConfig<N> {
 }
 
 /// Raises the voltage tick by tick, and lowers it while the torque is above its limit.
+///
+/// [`Induction::soft_start`](crate::machine::Induction::soft_start) has the starting time.
 ///
 /// ```
 /// use driveline::governor::{SoftStarter, SoftStarterConfig};

@@ -1,14 +1,14 @@
 //! Speed filters before the governor: none, a moving average over the firing interval, or the average over a cycle.
-//!
-//! An engine's speed fluctuates with every firing, and a governor that follows the ripple only wears the rack: a
-//! flywheel reduces periodic fluctuation, a governor the rest [Notes ch. 5]. The moving average over one firing
-//! interval at rated speed contains none of the firing orders. For a varying speed or a long cycle the ripple follows
-//! the angle: [`CycleAverage`] takes the speed without its ripple from the drive's measurement of the fluctuation.
 
 use crate::number::Number;
 use crate::sample::Estimate;
 
 /// A filter of the speed; `()` passes the estimates unchanged.
+///
+/// An engine's speed fluctuates with every firing, and a governor that follows the ripple only wears the rack: a
+/// flywheel reduces periodic fluctuation, a governor the rest [Notes ch. 5]. The moving average over one firing
+/// interval at rated speed contains none of the firing orders. For a varying speed or a long cycle the ripple follows
+/// the angle: [`CycleAverage`] takes the speed without its ripple from the drive's measurement of the fluctuation.
 pub trait SpeedFilter<N: Number>: Default {
     /// Its constants.
     type Config;

@@ -1,24 +1,4 @@
 //! A speed governor composed by type: ramp, proportional and integral action with anti-windup, and optional parts.
-//!
-//! ```text
-//! omega* = ramp(setpoint) - droop,     e = omega* - omega_m
-//! tau    = limit(k e + I + c),         I' = I + r (tau - c - I)
-//! ```
-//!
-//! with gain k and reset r as in [`SpeedLoop`](super::SpeedLoop) and the compensation c. The integral follows the
-//! limited torque, whichever part limits it: torque, power or slew. [`BacklashTakeUp`](super::BacklashTakeUp) moves the
-//! ramped setpoint back as well.
-//!
-//! - **`S`**, shaping of the setpoint: `()` isochronous, [`Droop`](super::Droop), [`Barred`](super::Barred)
-//! - **`F`**, compensation: `()` none, [`FeedForward`](super::FeedForward), [`ActiveDamping`](super::ActiveDamping),
-//!   [`AccelerationFeedback`](super::AccelerationFeedback)
-//! - **`L`**, the limit: [`SymmetricLimit`], [`TorqueRange`](super::TorqueRange), [`Curve`](super::Curve),
-//!   [`Slew`](super::Slew) or [`BacklashTakeUp`](super::BacklashTakeUp) round any of them
-//! - **`M`**, run sequence: `()` always governing, [`Sequencer`](super::Sequencer)
-//! - **`V`**, speed filter: `()` none, [`MovingAverage`](super::MovingAverage) over an engine's firing interval,
-//!   [`CycleAverage`](super::CycleAverage) over a cycle
-//!
-//! Two parts of one kind are a tuple: `(Droop, Barred<2>)`. A part left out costs nothing.
 
 use super::{
     Compensation, Governor, HasRunSequence, Limit, RunAction, Sequence, Sequencer, SetpointShape, SpeedFilter,
@@ -59,6 +39,26 @@ pub struct SpeedGovernorConfig<N: Number, S, F, L, M, V> {
 
 /// State of the governor, by its parts: `S` shapes the setpoint, `F` compensates, `L` limits the torque, `M` is the run
 /// sequence, `V` filters the speed.
+///
+/// ```text
+/// omega* = ramp(setpoint) - droop,     e = omega* - omega_m
+/// tau    = limit(k e + I + c),         I' = I + r (tau - c - I)
+/// ```
+///
+/// with gain k and reset r as in [`SpeedLoop`](super::SpeedLoop) and the compensation c. The integral follows the
+/// limited torque, whichever part limits it: torque, power or slew. [`BacklashTakeUp`](super::BacklashTakeUp) moves the
+/// ramped setpoint back as well.
+///
+/// - **`S`**, shaping of the setpoint: `()` isochronous, [`Droop`](super::Droop), [`Barred`](super::Barred)
+/// - **`F`**, compensation: `()` none, [`FeedForward`](super::FeedForward), [`ActiveDamping`](super::ActiveDamping),
+///   [`AccelerationFeedback`](super::AccelerationFeedback)
+/// - **`L`**, the limit: [`SymmetricLimit`], [`TorqueRange`](super::TorqueRange), [`Curve`](super::Curve),
+///   [`Slew`](super::Slew) or [`BacklashTakeUp`](super::BacklashTakeUp) round any of them
+/// - **`M`**, run sequence: `()` always governing, [`Sequencer`](super::Sequencer)
+/// - **`V`**, speed filter: `()` none, [`MovingAverage`](super::MovingAverage) over an engine's firing interval,
+///   [`CycleAverage`](super::CycleAverage) over a cycle
+///
+/// Two parts of one kind are a tuple: `(Droop, Barred<2>)`. A part left out costs nothing.
 ///
 /// ```
 /// use driveline::governor::*;

@@ -1,14 +1,4 @@
 //! A speed loop: proportional and integral, active damping, limits, anti-windup.
-//!
-//! ```text
-//! tau = limit(k (omega* - omega_m) + I + d),   d = -k_d (omega_m - omega_l),   I' = I + r (tau - d - I)
-//! ```
-//!
-//! with `k = k_p + k_i T` and `r = k_i T/k`, T the period. Within the limit this is the proportional and integral law,
-//! `I' = I + k_i T (omega* - omega_m)`. The integral follows the limited torque with its own time constant (automatic
-//! reset [Åström and Hägglund 1995, PID Controllers, section 3.5]). With r below 1 it stays within the limit and the
-//! largest damping, whatever gains, setpoint and estimates: it cannot wind up. The setpoint moves by at most the ramp's
-//! step a tick. Filters of the ramped setpoint, of the speed and of the twist rate are optional: [`LoopFilter`].
 
 use super::{Governor, LoopFilter};
 use crate::number::Number;
@@ -41,7 +31,17 @@ impl<N: Number> SpeedLoopConfig<N> {
     }
 }
 
-/// State of the speed loop.
+/// A speed loop: proportional and integral action, active damping, limits, anti-windup.
+///
+/// ```text
+/// tau = limit(k (omega* - omega_m) + I + d),   d = -k_d (omega_m - omega_l),   I' = I + r (tau - d - I)
+/// ```
+///
+/// with `k = k_p + k_i T` and `r = k_i T/k`, T the period. Within the limit this is the proportional and integral law,
+/// `I' = I + k_i T (omega* - omega_m)`. The integral follows the limited torque with its own time constant (automatic
+/// reset [Åström and Hägglund 1995, PID Controllers, section 3.5]). With r below 1 it stays within the limit and the
+/// largest damping, whatever gains, setpoint and estimates: it cannot wind up. The setpoint moves by at most the ramp's
+/// step a tick. Filters of the ramped setpoint, of the speed and of the twist rate are optional: [`LoopFilter`].
 ///
 /// ```
 /// use driveline::governor::{Governor, SpeedLoop, SpeedLoopConfig};

@@ -1,19 +1,4 @@
 //! Eccentricity of the encoder, from the innovation at once a turn.
-//!
-//! An eccentric encoder reads `phi + a cos(phi) + b sin(phi)` at the angle phi. The observer follows slow errors and
-//! leaves fast ones in its innovation: of an error at the frequency theta per tick there remains the part
-//!
-//! ```text
-//! S(z) = 1/(1 + C (z - F)^-1 F K) = prod(z - open)/prod(z - closed),   z = e^(j theta)
-//! ```
-//!
-//! with the poles of the model and those of the observer. Each tick subtracts the learnt error from the angle and adds
-//! the innovation, times cosine and sine of the angle, to two sums. Between the ticks [`EccentricityObserver::learn`]
-//! divides these by S at the present speed: amplitude and phase of the remaining error. Without the phase of S the
-//! estimate runs away.
-//!
-//! Where S is small the encoder's error cannot be distinguished from the motion, and nothing is learnt. An error of
-//! once a turn that stems from the machine is taken for the encoder's, up to the bound.
 
 use super::Finding;
 use crate::angle::Synchronous;
@@ -138,6 +123,21 @@ impl Correction for Fixed {
 /// An observer behind an eccentric encoder.
 ///
 /// Its constants are those of the observer in it.
+///
+/// An eccentric encoder reads `phi + a cos(phi) + b sin(phi)` at the angle phi. The observer follows slow errors and
+/// leaves fast ones in its innovation: of an error at the frequency theta per tick there remains the part
+///
+/// ```text
+/// S(z) = 1/(1 + C (z - F)^-1 F K) = prod(z - open)/prod(z - closed),   z = e^(j theta)
+/// ```
+///
+/// with the poles of the model and those of the observer. Each tick subtracts the learnt error from the angle and adds
+/// the innovation, times cosine and sine of the angle, to two sums. Between the ticks [`EccentricityObserver::learn`]
+/// divides these by S at the present speed: amplitude and phase of the remaining error. Without the phase of S the
+/// estimate runs away.
+///
+/// Where S is small the encoder's error cannot be distinguished from the motion, and nothing is learnt. An error of
+/// once a turn that stems from the machine is taken for the encoder's, up to the bound.
 ///
 /// ```
 #[doc = include_str!("../roll.txt")]

@@ -1,18 +1,4 @@
 //! Friction of a gear, from the motor's torque up and down.
-//!
-//! At a steady speed under a load torque T the motor carries `T/eta` where it drives the load, and `eta T` where the
-//! load drives it [Huang 1987 tables 1-2 to 1-4]. From the two means,
-//!
-//! ```text
-//! lambda = (up - down)/(up + down) = (1 - eta^2)/(1 + eta^2)
-//! ```
-//!
-//! the friction per torque of [`GearedObserver`](crate::observer::GearedObserver). The load cancels out, and so does
-//! the torque constant.
-//!
-//! Only windows count in which speed and torque are steady, and only a pair that lies close in time without a closed
-//! brake between: a change of the load would be taken for a loss. A finding changes the friction once a second pair
-//! agrees with it.
 
 use super::Finding;
 use super::steady::{Pairs, Steady, Window, check, frictions};
@@ -60,6 +46,20 @@ const STEADY_TORQUE: f32 = 0.02;
 const AGREEMENT: f32 = 0.01;
 
 /// Friction of a gear per torque, learnt.
+///
+/// At a steady speed under a load torque T the motor carries `T/eta` where it drives the load, and `eta T` where the
+/// load drives it [Huang 1987 tables 1-2 to 1-4]. From the two means,
+///
+/// ```text
+/// lambda = (up - down)/(up + down) = (1 - eta^2)/(1 + eta^2)
+/// ```
+///
+/// the friction per torque of [`GearedObserver`](crate::observer::GearedObserver). The load cancels out, and so does
+/// the torque constant.
+///
+/// Only windows count in which speed and torque are steady, and only a pair that lies close in time without a closed
+/// brake between: a change of the load would be taken for a loss. A finding changes the friction once a second pair
+/// agrees with it.
 ///
 /// ```
 /// use driveline::learning::{GearLoss, GearLossConfig};

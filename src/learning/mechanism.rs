@@ -1,14 +1,4 @@
 //! Inertia and torque of a mechanism over its turn, learnt from a run at two speeds.
-//!
-//! Between two angles a and b of the crank the work of the motor becomes kinetic energy, and what weight and friction
-//! take:
-//!
-//! ```text
-//! 1/2 [J omega^2]_a^b + int_a^b G dphi + c int_a^b omega dphi = int_a^b tau dphi
-//! ```
-//!
-//! \[derived\]. J and G are Fourier series of the crank's angle with unknown coefficients, c is the viscous friction:
-//! linear least squares. Two speeds part J from G; the change from one to the other gives the size of J.
 
 use crate::machine::{MECHANISM_POINTS, Mechanism, MechanismPoint};
 use crate::math::{sin_cos, sqrt};
@@ -16,6 +6,16 @@ use crate::math::{sin_cos, sqrt};
 /// Least squares of a mechanism, in `P` unknowns: `4 K + 3` for K orders of inertia and of torque.
 ///
 /// Takes `8 P^2` bytes. A segment is a part of a turn, such as a sixty-fourth.
+///
+/// Between two angles a and b of the crank the work of the motor becomes kinetic energy, and what weight and friction
+/// take:
+///
+/// ```text
+/// 1/2 [J omega^2]_a^b + int_a^b G dphi + c int_a^b omega dphi = int_a^b tau dphi
+/// ```
+///
+/// \[derived\]. J and G are Fourier series of the crank's angle with unknown coefficients, c is the viscous friction:
+/// linear least squares. Two speeds part J from G; the change from one to the other gives the size of J.
 ///
 /// ```
 /// use core::f64::consts::TAU;
@@ -26,7 +26,8 @@ use crate::math::{sin_cos, sqrt};
 /// for (turn, [from, to]) in turns.into_iter().enumerate() {
 ///     for k in 0..64 {
 ///         let parts = [k, k + 1].map(|k| k as f64 / 64.0);
-///         let (angle, speed) = (parts.map(|part| (turn as f64 + part) * TAU), parts.map(|part| from + (to - from) * part));
+///         let angle = parts.map(|part| (turn as f64 + part) * TAU);
+///         let speed = parts.map(|part| from + (to - from) * part);
 ///         let work = 1.5 * (speed[1].powi(2) - speed[0].powi(2)) + 5.0 * (angle[1] - angle[0]);
 ///         fit.segment(angle, speed, work);
 ///     }
@@ -54,9 +55,9 @@ impl<const P: usize> MechanismFit<P> {
     const ORDERS: usize = (P - 3) / 4;
     const SERIES: usize = 2 * Self::ORDERS + 1;
 
-    /// Takes a segment: angles (rad, from the mechanism's zero) and speeds (rad/s) of the crank at its two ends, and the
-    /// work of the motor at the crank's shaft (J) between them. The speed counts as straight over the angle. It is to be
-    /// filtered without delay: its noise makes the inertia too small.
+    /// Takes a segment: angles (rad, from the mechanism's zero) and speeds (rad/s) of the crank at its two ends, and
+    /// the work of the motor at the crank's shaft (J) between them. The speed counts as straight over the angle. It is
+    /// to be filtered without delay: its noise makes the inertia too small.
     pub fn segment(&mut self, [from, to]: [f64; 2], [slow, fast]: [f64; 2], work: f64) {
         let mut row = [0.0; P];
         let (kinetic_from, kinetic_to) = (0.5 * slow * slow, 0.5 * fast * fast);

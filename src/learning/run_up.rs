@@ -1,20 +1,4 @@
 //! Inertia, from run-ups between two steady speeds.
-//!
-//! Between two steady speeds under one load the motor's torque above that of the steady motion accelerates the whole
-//! inertia:
-//!
-//! ```text
-//! J = integral(tau - tau_steady) dt / (omega_2 - omega_1 - integral(alpha_steady) dt)
-//! ```
-//!
-//! tau_steady is the mean torque of the two speeds, and alpha_steady the mean acceleration that is left there: a slow
-//! loop creeps into its setpoint. It is the change of the load torque's estimate per acceleration, without the
-//! observer's lag. Behind a gear with losses the load's share of J is larger by the friction per shaft
-//! torque. Where the load's inertia is known by its weight, the rest is the motor's.
-//!
-//! Only speeds of one direction count, with equal torques: otherwise the load has changed. A finding while the motor
-//! accelerates needs one while it decelerates that agrees: a brake that drags on the way makes the one larger and the
-//! other smaller.
 
 use super::Finding;
 use super::steady::{Steady, Window, check};
@@ -75,6 +59,22 @@ impl RunUpConfig {
 }
 
 /// Inertia of the whole drivetrain at the motor, learnt.
+///
+/// Between two steady speeds under one load the motor's torque above that of the steady motion accelerates the whole
+/// inertia:
+///
+/// ```text
+/// J = integral(tau - tau_steady) dt / (omega_2 - omega_1 - integral(alpha_steady) dt)
+/// ```
+///
+/// tau_steady is the mean torque of the two speeds, and alpha_steady the mean acceleration that is left there: a slow
+/// loop creeps into its setpoint. It is the change of the load torque's estimate per acceleration, without the
+/// observer's lag. Behind a gear with losses the load's share of J is larger by the friction per shaft
+/// torque. Where the load's inertia is known by its weight, the rest is the motor's.
+///
+/// Only speeds of one direction count, with equal torques: otherwise the load has changed. A finding while the motor
+/// accelerates needs one while it decelerates that agrees: a brake that drags on the way makes the one larger and the
+/// other smaller.
 ///
 /// ```
 /// use driveline::learning::{RunUp, RunUpConfig};

@@ -1,20 +1,4 @@
 //! Torque constant and offset of the motor, from known loads up and down.
-//!
-//! The motor gives `gain tau + offset` where its inverter reports tau. Under a known load torque W at a steady speed
-//! the motor carries `W/eta` upwards and `eta W` downwards [Huang 1987 tables 1-2 to 1-4]. Of the reported torques up
-//! and down, the mean m and half of the difference d, follows
-//!
-//! ```text
-//! gain x + offset = W,   x = sqrt(m^2 - d^2);   x = m for a light load or none
-//! ```
-//!
-//! The gear's loss cancels out. One known weight gives the gain with the present offset; a run without load gives the
-//! offset, since friction changes its sign with the direction and the offset does not. Two loads, such as the empty
-//! hook and a test weight, give both.
-//!
-//! Windows and pairs are those of [`GearLoss`](super::GearLoss). A pair under a weight counts only with a loss that the
-//! gear can have: a slipping brake is none. A result out of the bounds is left out. A wrong weight within the bounds,
-//! or a load that drifts by less than 4 % of rated a second, cannot be told from a torque constant.
 
 use super::Finding;
 use super::steady::{Pairs, Steady, Window, check, frictions};
@@ -79,6 +63,22 @@ struct Point {
 }
 
 /// Gain and offset of the motor's torque, learnt.
+///
+/// The motor gives `gain tau + offset` where its inverter reports tau. Under a known load torque W at a steady speed
+/// the motor carries `W/eta` upwards and `eta W` downwards [Huang 1987 tables 1-2 to 1-4]. Of the reported torques up
+/// and down, the mean m and half of the difference d, follows
+///
+/// ```text
+/// gain x + offset = W,   x = sqrt(m^2 - d^2);   x = m for a light load or none
+/// ```
+///
+/// The gear's loss cancels out. One known weight gives the gain with the present offset; a run without load gives the
+/// offset, since friction changes its sign with the direction and the offset does not. Two loads, such as the empty
+/// hook and a test weight, give both.
+///
+/// Windows and pairs are those of [`GearLoss`](super::GearLoss). A pair under a weight counts only with a loss that the
+/// gear can have: a slipping brake is none. A result out of the bounds is left out. A wrong weight within the bounds,
+/// or a load that drifts by less than 4 % of rated a second, cannot be told from a torque constant.
 ///
 /// ```
 /// use driveline::learning::{TorqueConstant, TorqueConstantConfig};

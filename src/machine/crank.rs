@@ -1,12 +1,4 @@
 //! Crank and slider: the inertia as a function of the angle, and the forces of the reciprocating masses.
-//!
-//! With crank radius r, connecting rod length l, `lambda = r/l` and the angle phi from the top dead centre, the
-//! connecting rod leans by beta, `sin beta = lambda sin phi`. The slider's travel from the dead centre is
-//! `s = r (1 - cos phi) + l (1 - cos beta)`. The energy `1/2 J(phi) omega^2` of everything that moves gives the inertia
-//! [Wang 1989 (1-15)], and `J(phi) omega' + 1/2 J'(phi) omega^2 = tau` the motion \[derived\].
-//!
-//! The connecting rod is exact: two point masses with its mass and centre of mass, and a correcting inertia (negative
-//! for a rod with heavy ends) \[derived\].
 
 use core::f64::consts::TAU;
 
@@ -15,6 +7,14 @@ use super::{Error, Inertia, Length, Mass, MechanismPoint};
 use crate::math::{sin_cos, sqrt};
 
 /// A crank, a connecting rod and a slider in line with the crank's axis.
+///
+/// With crank radius r, connecting rod length l, `lambda = r/l` and the angle phi from the top dead centre, the
+/// connecting rod leans by beta, `sin beta = lambda sin phi`. The slider's travel from the dead centre is
+/// `s = r (1 - cos phi) + l (1 - cos beta)`. The energy `1/2 J(phi) omega^2` of everything that moves gives the inertia
+/// [Wang 1989 (1-15)], and `J(phi) omega' + 1/2 J'(phi) omega^2 = tau` the motion \[derived\].
+///
+/// The connecting rod is exact: two point masses with its mass and centre of mass, and a correcting inertia (negative
+/// for a rod with heavy ends) \[derived\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CrankSlider {

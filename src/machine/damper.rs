@@ -1,18 +1,4 @@
 //! Dampers and absorbers of torsional vibration, with their best sizes [derived; heading: Pfützner 1980 §1.5].
-//!
-//! A damper is a ring beside one of the machine's masses. Near a natural frequency the machine is one mass on one
-//! spring there, a [`Resonance`], and the ring's inertia over that of the resonance is the mass ratio mu. Amplitudes
-//! are over the static angle, torque over stiffness.
-//!
-//! - **[`tuned`](Resonance::tuned_damper)** (Den Hartog): frequency `omega/(1 + mu)`, damping ratio `sqrt(3 mu/(8 (1 +
-//!   mu)))`; largest amplitude `sqrt(1 + 2/mu)`
-//! - **[`viscous`](Resonance::viscous_damper)** (Lanchester): `d = 2 J_d omega/sqrt(2 (1 + mu) (2 + mu))`; largest
-//!   amplitude `(2 + mu)/mu`
-//! - **[`friction`](FrictionDamper)**: torque `sqrt(2)/pi J_d omega^2 phi`; largest amplitude `pi^2/(4 mu)`
-//! - **[`absorber`](Damper::absorber)**: frequency that of the excitation; no amplitude there
-//! - **[`pendulum`](CentrifugalPendulum)**: order `sqrt(R/L)`; no amplitude at that order, at every speed
-//!
-//! The first two hold for a machine without damping of its own.
 
 mod friction;
 mod pendulum;
@@ -34,6 +20,20 @@ pub struct Resonance {
 }
 
 /// A ring on a spring and a viscous damper beside one of the machine's masses.
+///
+/// A damper is a ring beside one of the machine's masses. Near a natural frequency the machine is one mass on one
+/// spring there, a [`Resonance`], and the ring's inertia over that of the resonance is the mass ratio mu. Amplitudes
+/// are over the static angle, torque over stiffness.
+///
+/// - **[`tuned`](Resonance::tuned_damper)** (Den Hartog): frequency `omega/(1 + mu)`, damping ratio `sqrt(3 mu/(8 (1 +
+///   mu)))`; largest amplitude `sqrt(1 + 2/mu)`
+/// - **[`viscous`](Resonance::viscous_damper)** (Lanchester): `d = 2 J_d omega/sqrt(2 (1 + mu) (2 + mu))`; largest
+///   amplitude `(2 + mu)/mu`
+/// - **[`friction`](FrictionDamper)**: torque `sqrt(2)/pi J_d omega^2 phi`; largest amplitude `pi^2/(4 mu)`
+/// - **[`absorber`](Damper::absorber)**: frequency that of the excitation; no amplitude there
+/// - **[`pendulum`](CentrifugalPendulum)**: order `sqrt(R/L)`; no amplitude at that order, at every speed
+///
+/// The first two hold for a machine without damping of its own.
 ///
 /// ```
 /// use driveline::machine::{Chain, Damping, Inertia, Resonance, Stiffness};

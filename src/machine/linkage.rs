@@ -1,14 +1,4 @@
 //! Linkages: the four-bar, and the toggle that one drives.
-//!
-//! The closed loop `a e^(i phi) + b e^(i theta) = d + c e^(i psi)` of crank a, coupler b, rocker c and ground d gives
-//! the coupler's angle theta and the rocker's psi, from the line between the pivots. Its derivatives by the crank's
-//! angle give their rates:
-//!
-//! ```text
-//! b theta' sin(psi - theta) = a sin(phi - psi),     c psi' sin(psi - theta) = a sin(phi - theta)
-//! ```
-//!
-//! and those of these the second ones \[derived\].
 
 use super::error::{not_negative, positive};
 use super::mechanism::angle_of;
@@ -16,6 +6,16 @@ use super::{Error, Inertia, Length, MECHANISM_POINTS, Mass, Mechanism, Mechanism
 use crate::math::{atan2, hypot, sin_cos, sqrt};
 
 /// A four-bar whose crank turns round and whose rocker swings, on the side of positive angles.
+///
+/// The closed loop `a e^(i phi) + b e^(i theta) = d + c e^(i psi)` of crank a, coupler b, rocker c and ground d gives
+/// the coupler's angle theta and the rocker's psi, from the line between the pivots. Its derivatives by the crank's
+/// angle give their rates:
+///
+/// ```text
+/// b theta' sin(psi - theta) = a sin(phi - psi),     c psi' sin(psi - theta) = a sin(phi - theta)
+/// ```
+///
+/// and those of these the second ones \[derived\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FourBar {

@@ -1,8 +1,4 @@
 //! Mechanisms whose inertia depends on the angle: one table over a turn, filled from a law.
-//!
-//! A mechanism with one degree of freedom turns with its crank. Mass m on a way y(phi), or inertia on an angle, gives
-//! the inertia `J(phi) = sum m y'(phi)^2` [Wang 1989 (1-15)]. A force along a way is the torque `F y'(phi)`
-//! [Wang 1989 (1-12)].
 
 use core::f64::consts::TAU;
 
@@ -37,6 +33,10 @@ impl MechanismPoint {
 }
 
 /// A mechanism on its own shaft, the crank: inertia and leverage over a turn, and the weight on its tool.
+///
+/// A mechanism with one degree of freedom turns with its crank. Mass m on a way y(phi), or inertia on an angle, gives
+/// the inertia `J(phi) = sum m y'(phi)^2` [Wang 1989 (1-15)]. A force along a way is the torque `F y'(phi)`
+/// [Wang 1989 (1-12)].
 ///
 /// ```
 /// use driveline::machine::{FourBar, Inertia, Length, Mass, Mechanism};

@@ -1,9 +1,4 @@
 //! Natural frequencies and mode shapes of a chain, with the motor free and with the motor locked.
-//!
-//! B is the incidence matrix: a shaft's twist from the angles. The frequencies are the singular values of `sqrt(k) B /
-//! sqrt(J)`. The left singular vectors of its transpose over `sqrt(J)` are the mass-normalised mode shapes. One-sided
-//! Jacobi rotations find them without ever forming `inv(J) K`, which loses a third of the lowest frequency at stiffness
-//! ratios of 1e15 [Demmel and Veselić 1992, SIAM J. Matrix Anal. Appl. 13(4)].
 
 use super::chain::{CAPACITY, Chain};
 use crate::math::sqrt;
@@ -28,6 +23,11 @@ pub struct Mode {
 }
 
 /// The natural vibrations of a chain or train in rising order, without the rigid turning at zero frequency.
+///
+/// B is the incidence matrix: a shaft's twist from the angles. The frequencies are the singular values of `sqrt(k) B /
+/// sqrt(J)`. The left singular vectors of its transpose over `sqrt(J)` are the mass-normalised mode shapes. One-sided
+/// Jacobi rotations find them without ever forming `inv(J) K`, which loses a third of the lowest frequency at stiffness
+/// ratios of 1e15 [Demmel and Veselić 1992, SIAM J. Matrix Anal. Appl. 13(4)].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[doc(alias("torsional vibration", "natural frequency", "modal analysis"))]

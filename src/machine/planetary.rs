@@ -1,15 +1,15 @@
 //! A planetary set of one sun, planets, a ring and a carrier (2K-H), any of sun, ring and carrier held.
-//!
-//! Speeds follow from Willis: seen from the carrier, sun and ring turn as
-//! `z_sun (w_sun - w_H) = -z_ring (w_ring - w_H)`, and a planet as `z_planet (w - w_H) = -z_sun (w_sun - w_H)`
-//! \[derived\]. The inertia at the input is that of each part times the square of its speed over the input's [Wang 1989
-//! example 1-4].
 
 use super::error::{not_negative, positive};
 use super::{Chain, Efficiency, Error, Inertia, Mass, Ratio};
 
 /// A planetary set; by default with the sun as input, the ring held and the carrier as output [Wang 1989 example 1-4].
 /// [`PlanetaryGear`] has other inputs and held members.
+///
+/// Speeds follow from Willis: seen from the carrier, sun and ring turn as
+/// `z_sun (w_sun - w_H) = -z_ring (w_ring - w_H)`, and a planet as `z_planet (w - w_H) = -z_sun (w_sun - w_H)`
+/// \[derived\]. The inertia at the input is that of each part times the square of its speed over the input's [Wang 1989
+/// example 1-4].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[doc(alias = "epicyclic gear")]

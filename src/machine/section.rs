@@ -1,7 +1,4 @@
 //! Shafts from their dimensions: stepped, hollow and tapered.
-//!
-//! A section twists by `tau/(G J_p(x))` along its length, `J_p = pi (D^4 - d^4)/32`; the sections of a stepped shaft
-//! carry one torque, so that their compliances add up [Wang 1989 §1-3, (1-16)].
 
 use core::f64::consts::PI;
 
@@ -19,6 +16,9 @@ impl Density {
 }
 
 /// A piece of a shaft: a cylinder or a cone, solid or with a cylindrical bore.
+///
+/// A section twists by `tau/(G J_p(x))` along its length, `J_p = pi (D^4 - d^4)/32`; the sections of a stepped shaft
+/// carry one torque, so that their compliances add up [Wang 1989 §1-3, (1-16)].
 ///
 /// ```
 /// use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Section, ShearModulus, Stiffness, stepped};

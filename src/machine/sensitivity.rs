@@ -1,7 +1,4 @@
 //! Sensitivity of a chain: changes at the motor when one of its parts is left out.
-//!
-//! A rule of thumb leaves out a drum below 10 % of its neighbours' inertia and a shaft ten times as stiff as the next
-//! one [Wang 1989 example 1-5]. Here each is left out in turn and the change is computed.
 
 use super::chain::{CAPACITY, Chain};
 use super::modes::lowest;
@@ -41,6 +38,9 @@ impl Part {
 }
 
 /// Every part of a chain that could be left out, shafts first, then the masses but for the motor.
+///
+/// A rule of thumb leaves out a drum below 10 % of its neighbours' inertia and a shaft ten times as stiff as the next
+/// one [Wang 1989 example 1-5]. Here each is left out in turn and the change is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Sensitivity {

@@ -1,10 +1,4 @@
 //! Branched and closed drive trains: chains that stand on one another's masses, and shafts that close loops.
-//!
-//! Everything is referred to the motor, the mass of index 0. Twists of the shafts of a tree are independent. A shaft
-//! that closes a loop is twisted by the sum of those round the loop, with signs and no other factors. So the strain
-//! energy is `|R delta|^2`, with R from the tree's shafts. Where there are loops, R is from a triangulation of all
-//! shafts by Householder's reflections. Frequencies are the singular values of `R B / sqrt(J)`. `inv(J) K` is never
-//! formed; without loops R is diagonal, and the accuracy is that of a chain [Demmel and Veselić 1992].
 
 use super::chain::{CAPACITY, Chain, Shaft, in_a_row};
 use super::error::not_negative;
@@ -34,6 +28,12 @@ pub struct Joint {
 /// Losses are as in a [`Chain`]: each shaft has the efficiency of its gears, and a branch is reached through the shafts
 /// of the tree between the motor and its mass. They count in the torque of the weights, and in inertias and stiffnesses
 /// where the first chain begins with [`starting`](Chain::starting) or [`braking`](Chain::braking).
+///
+/// Everything is referred to the motor, the mass of index 0. Twists of the shafts of a tree are independent. A shaft
+/// that closes a loop is twisted by the sum of those round the loop, with signs and no other factors. So the strain
+/// energy is `|R delta|^2`, with R from the tree's shafts. Where there are loops, R is from a triangulation of all
+/// shafts by Householder's reflections. Frequencies are the singular values of `R B / sqrt(J)`. `inv(J) K` is never
+/// formed; without loops R is diagonal, and the accuracy is that of a chain [Demmel and Veselić 1992].
 ///
 /// ```
 /// use driveline::machine::{Chain, Damping, Inertia, Ratio, Stiffness, Train};

@@ -1,27 +1,4 @@
 //! Gear losses, deducted from the motor's torque before an observer.
-//!
-//! The driving side supplies the loss [Huang 1987 tables 1-2 to 1-4]: motoring, the motor carries T/eta for a shaft
-//! torque T; overhauling, only eta T. Both are a torque kT less or plus a friction lambda kT that opposes the motion:
-//!
-//! ```text
-//! k (1 + lambda) = 1/eta,  k (1 - lambda) = eta:  lambda = (1 - eta^2)/(1 + eta^2),  k = (1 + eta^2)/(2 eta)
-//! ```
-//!
-//! At a standstill the friction takes any value up to that, and holds the gear. The observer behind it estimates kT from
-//! the remaining torque of the motor,
-//!
-//! ```text
-//! tau = tau_m - friction,   friction = tau_m - kT + c omega_m, limited to +-lambda |kT|
-//! ```
-//!
-//! in motion the limit, at standstill the balance of motor and shaft, with c omega_m (the stiction gain) to bring the
-//! estimate to rest. T is the torque after the gear, in shaft, rope and load. Without this a loss of 6 % is taken for
-//! shaft torque, and its reversal for a jerk of the load.
-//!
-//! While the gear sticks, the motor's angle contains no information on the load: it only moves within its own shaft's
-//! twist. The innovation is then left out, up to the deadband, which covers such a turn. Within the deadband the
-//! residual decays: a twist that was added to it would be taken for motion in the tick that breaks the gear loose.
-//! Beyond the deadband it is kept, so that a gear that loses less than lambda, and creeps, is followed.
 
 use super::{Observer, Prediction};
 use crate::number::{Fixed, Magnitude, Number};
@@ -70,6 +47,29 @@ impl<N: Number> GearFriction<N> {
 }
 
 /// An observer behind a gear with losses.
+///
+/// The driving side supplies the loss [Huang 1987 tables 1-2 to 1-4]: motoring, the motor carries T/eta for a shaft
+/// torque T; overhauling, only eta T. Both are a torque kT less or plus a friction lambda kT that opposes the motion:
+///
+/// ```text
+/// k (1 + lambda) = 1/eta,  k (1 - lambda) = eta:  lambda = (1 - eta^2)/(1 + eta^2),  k = (1 + eta^2)/(2 eta)
+/// ```
+///
+/// At a standstill the friction takes any value up to that, and holds the gear. The observer behind it estimates kT from
+/// the remaining torque of the motor,
+///
+/// ```text
+/// tau = tau_m - friction,   friction = tau_m - kT + c omega_m, limited to +-lambda |kT|
+/// ```
+///
+/// in motion the limit, at standstill the balance of motor and shaft, with c omega_m (the stiction gain) to bring the
+/// estimate to rest. T is the torque after the gear, in shaft, rope and load. Without this a loss of 6 % is taken for
+/// shaft torque, and its reversal for a jerk of the load.
+///
+/// While the gear sticks, the motor's angle contains no information on the load: it only moves within its own shaft's
+/// twist. The innovation is then left out, up to the deadband, which covers such a turn. Within the deadband the
+/// residual decays: a twist that was added to it would be taken for motion in the tick that breaks the gear loose.
+/// Beyond the deadband it is kept, so that a gear that loses less than lambda, and creeps, is followed.
 ///
 /// ```
 #[doc = include_str!("../roll.txt")]

@@ -1,15 +1,4 @@
 //! Losses of a gear behind the shaft, deducted from the load torque after an observer.
-//!
-//! A gear between the shaft and the load leaves the shaft torque T as it is: the motor feels T itself. The load's side
-//! gets `eta T` while the motor drives, and gives `T / eta_back` while the load does [Wang 1989 §1-3, Huang 1987 ch. 1].
-//! The observer takes the difference for load torque. Here it is deducted,
-//!
-//! ```text
-//! tau_L = tau_L' - friction,   friction = c omega_l, limited to (1 - eta) |T|  or  (1/eta_back - 1) |T|
-//! ```
-//!
-//! with the first limit while shaft torque and load speed have the same sign. The stiction gain c takes the friction
-//! through zero at standstill, where the motor's angle contains nothing of it: the load torque is then the shaft torque.
 
 use super::{Observer, Prediction, Stiction};
 use crate::sample::Estimate;
@@ -29,6 +18,17 @@ pub struct LoadGearConfig<N: Stiction, C> {
 }
 
 /// An observer in front of a gear with losses, whose shaft lies between the motor and the gear.
+///
+/// A gear between the shaft and the load leaves the shaft torque T as it is: the motor feels T itself. The load's side
+/// gets `eta T` while the motor drives, and gives `T / eta_back` while the load does [Wang 1989 §1-3, Huang 1987 ch. 1].
+/// The observer takes the difference for load torque. Here it is deducted,
+///
+/// ```text
+/// tau_L = tau_L' - friction,   friction = c omega_l, limited to (1 - eta) |T|  or  (1/eta_back - 1) |T|
+/// ```
+///
+/// with the first limit while shaft torque and load speed have the same sign. The stiction gain c takes the friction
+/// through zero at standstill, where the motor's angle contains nothing of it: the load torque is then the shaft torque.
 ///
 /// ```
 #[doc = include_str!("../roll.txt")]

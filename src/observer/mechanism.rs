@@ -1,24 +1,4 @@
 //! The observer of a machine with a mechanism: one mass whose inertia depends on the angle.
-//!
-//! A press, a shear, a pump: inertia and weight torque at the motor swing with the crank's angle,
-//!
-//! ```text
-//! J(phi) omega' = tau_m - tau_L - 1/2 J'(phi) omega^2 - G y'(phi)
-//! ```
-//!
-//! [derived; J(phi): Wang 1989 (1-15)]. An observer of constant inertia takes the exchange of energy for load torque.
-//! Here it is reckoned with: the rigid observer of the mean inertia J is given the torque
-//!
-//! ```text
-//! tau = tau_L + J/J(phi) (tau_m - tau_L - 1/2 J'(phi) omega^2 - G y'(phi))
-//! ```
-//!
-//! under which a machine of constant inertia would move as this one does. `J/J(phi)`, `1/2 J'(phi)` and, where it is
-//! wanted, the torque of the weight come from a table of constants over a turn of the crank, straight between its
-//! points: of any [`Mechanism`](crate::machine::Mechanism).
-//!
-//! The crank's angle follows from the motor's, exactly whatever the gear, once it is known:
-//! [`MechanismObserver::home`].
 
 use super::{Observer, Prediction, RigidConfig, RigidObserver};
 use crate::angle::{RotorAngle, RotorAngleConfig};
@@ -67,7 +47,27 @@ pub struct MechanismConfig<N: Number, const TOOLS: usize = 0> {
     pub tool: [Tool<N>; TOOLS],
 }
 
-/// State of the observer of a machine with a mechanism: of one tool or none.
+/// The observer of a machine with a mechanism, of one tool or none.
+///
+/// A press, a shear, a pump: inertia and weight torque at the motor swing with the crank's angle,
+///
+/// ```text
+/// J(phi) omega' = tau_m - tau_L - 1/2 J'(phi) omega^2 - G y'(phi)
+/// ```
+///
+/// [derived; J(phi): Wang 1989 (1-15)]. An observer of constant inertia takes the exchange of energy for load torque.
+/// Here it is reckoned with: the rigid observer of the mean inertia J is given the torque
+///
+/// ```text
+/// tau = tau_L + J/J(phi) (tau_m - tau_L - 1/2 J'(phi) omega^2 - G y'(phi))
+/// ```
+///
+/// under which a machine of constant inertia would move as this one does. `J/J(phi)`, `1/2 J'(phi)` and, where it is
+/// wanted, the torque of the weight come from a table of constants over a turn of the crank, straight between its
+/// points: of any [`Mechanism`](crate::machine::Mechanism).
+///
+/// The crank's angle follows from the motor's, exactly whatever the gear, once it is known:
+/// [`MechanismObserver::home`].
 ///
 /// ```
 /// use driveline::design::{Disturbance, Encoder, Rate};

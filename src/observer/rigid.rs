@@ -1,10 +1,4 @@
 //! The rigid observer: one inertia, for shafts that are rigid at the controller's bandwidth.
-//!
-//! ```text
-//! omega' = omega + T/J (tau_m - tau_L)
-//! ```
-//!
-//! The shaft torque is then the load torque plus the acceleration torque of the load's share of the inertia.
 
 use super::{AngleTracker, Observer, Prediction};
 use crate::number::Number;
@@ -28,7 +22,13 @@ pub struct RigidConfig<N: Number> {
     pub load_share: N::Coefficient,
 }
 
-/// State of the rigid observer.
+/// The observer of a rigid machine.
+///
+/// ```text
+/// omega' = omega + T/J (tau_m - tau_L)
+/// ```
+///
+/// The shaft torque is then the load torque plus the acceleration torque of the load's share of the inertia.
 ///
 /// ```
 #[doc = include_str!("../roll.txt")]

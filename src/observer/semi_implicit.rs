@@ -1,16 +1,4 @@
 //! The semi-implicit two-mass observer: for soft shafts that are sampled fast.
-//!
-//! Speeds first, from the torques as they were, then the shaft torque from the speeds as they have become:
-//!
-//! ```text
-//! omega_m' = omega_m + T/J_m (tau_m - tau_s)
-//! omega_l' = omega_l + T/J_l (tau_s - tau_L)
-//! tau_s'   = tau_s + (k T + d) (omega_m' - omega_l') - d (omega_m - omega_l)
-//! ```
-//!
-//! Symplectic Euler: the undamped pair turns on an ellipse that closes, whatever the rounding, as long as omega T < 2;
-//! its frequency is high by (omega T)^2/24. `design` states the error of both and chooses between this step and the
-//! exact one.
 
 use super::{AngleTracker, Observer, Prediction};
 use crate::number::Number;
@@ -37,7 +25,19 @@ pub struct SemiImplicitConfig<N: Number> {
     pub speed: N::Coefficient,
 }
 
-/// State of the semi-implicit two-mass observer.
+/// The observer of two masses with the semi-implicit step.
+///
+/// Speeds first, from the torques as they were, then the shaft torque from the speeds as they have become:
+///
+/// ```text
+/// omega_m' = omega_m + T/J_m (tau_m - tau_s)
+/// omega_l' = omega_l + T/J_l (tau_s - tau_L)
+/// tau_s'   = tau_s + (k T + d) (omega_m' - omega_l') - d (omega_m - omega_l)
+/// ```
+///
+/// Symplectic Euler: the undamped pair turns on an ellipse that closes, whatever the rounding, as long as omega T < 2;
+/// its frequency is high by (omega T)^2/24. `design` states the error of both and chooses between this step and the
+/// exact one.
 ///
 /// ```
 /// use driveline::design::{Disturbance, Encoder, Rate};

@@ -1,19 +1,4 @@
 //! The exact two-mass observer: any stiffness, any tick rate.
-//!
-//! The drivetrain is seen as its mean motion, which only external torques change, and its twist, a closed pair:
-//! with omega = (J_m omega_m + J_l omega_l)/(J_m + J_l), delta the twist, v = omega_m - omega_l its rate and
-//! s = tau_m/J_m + tau_L/J_l,
-//!
-//! ```text
-//! omega' = omega + T (tau_m - tau_L)/(J_m + J_l)
-//! delta' = delta + n11 delta + n12 v + g1 s
-//! v'     = v     + n21 delta + n22 v + g2 s
-//! ```
-//!
-//! which is the zero-order-hold solution to the last digit of the number type. The coefficients are those of the
-//! *increment*, which keeps the resolution of a slow mode that is sampled fast. In `f32` a coefficient cos(omega T) has
-//! lost the mode's frequency where 1 - cos(omega T) has not. Angular momentum is a state, so it is kept whatever the
-//! stiffness. The motor turns by the mean speed's trapezium plus its share of the twist's increment, again exactly.
 
 use super::{AngleTracker, Observer, Prediction};
 use crate::number::Number;
@@ -47,7 +32,22 @@ pub struct TwoMassConfig<N: Number> {
     pub compliance: N::Coefficient,
 }
 
-/// State of the exact two-mass observer.
+/// The observer of two masses with the exact step.
+///
+/// The drivetrain is seen as its mean motion, which only external torques change, and its twist, a closed pair:
+/// with omega = (J_m omega_m + J_l omega_l)/(J_m + J_l), delta the twist, v = omega_m - omega_l its rate and
+/// s = tau_m/J_m + tau_L/J_l,
+///
+/// ```text
+/// omega' = omega + T (tau_m - tau_L)/(J_m + J_l)
+/// delta' = delta + n11 delta + n12 v + g1 s
+/// v'     = v     + n21 delta + n22 v + g2 s
+/// ```
+///
+/// which is the zero-order-hold solution to the last digit of the number type. The coefficients are those of the
+/// *increment*, which keeps the resolution of a slow mode that is sampled fast. In `f32` a coefficient cos(omega T) has
+/// lost the mode's frequency where 1 - cos(omega T) has not. Angular momentum is a state, so it is kept whatever the
+/// stiffness. The motor turns by the mean speed's trapezium plus its share of the twist's increment, again exactly.
 ///
 /// ```
 #[doc = include_str!("../roll.txt")]
