@@ -3,6 +3,16 @@
 use core::fmt;
 
 /// An entry that cannot be used; planes, rows and runs are counted from 0.
+///
+/// ```
+/// use driveline::balancing::{Complex, Error, Influence};
+/// let mut fan = Influence::<f64, 2, 2>::new(2, 2)?;
+/// // a trial weight that changed nothing: it was put into another plane, or not at all; the coefficients stay
+/// let run = [Complex::new(4.0, 0.0), Complex::new(1.0, 2.0)];
+/// assert_eq!(fan.learn(1, &run, &run, Complex::new(10.0, 0.0)), Err(Error::NoEffect { plane: 1 }));
+/// assert_eq!(fan.unknown(), Some(0));
+/// # Ok::<(), driveline::balancing::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]

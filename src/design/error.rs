@@ -2,6 +2,15 @@
 
 sentences! {
     /// A parameter of a design that is out of its range, or a machine that cannot be observed or governed so.
+    ///
+    /// ```
+    /// use driveline::design::{Disturbance, Encoder, Error, Rate};
+    /// use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
+    /// // a shaft of 200 rad/s = 32 Hz at 50 ticks a second
+    /// let shaft = TwoMass::new(Inertia(0.5), Inertia(0.5), Stiffness(1.0e4), Damping(0.0));
+    /// let load = Disturbance { torque_accuracy: 3.0, load_torque_step: 150.0, within: 10.0 };
+    /// assert_eq!(shaft.try_observer(Rate::hz(50), Encoder::lines(2048), load), Err(Error::SampleRate));
+    /// ```
     Error: [Machine(crate::machine::Error)]
     Period => "the sample rate must be positive and finite (Hz)",
     EncoderLines => "the encoder must have at least one line",

@@ -2,6 +2,14 @@
 
 sentences! {
     /// A parameter of a machine that is out of its range, or elements in an impossible order.
+    ///
+    /// ```
+    /// use driveline::machine::{Chain, Damping, Error, Inertia, Stiffness};
+    /// // a chain carries its first error to its end
+    /// let chain = Chain::motor(Inertia(0.62)).shaft(Stiffness(-900.0), Damping(0.5)).rotor(Inertia(0.35));
+    /// assert_eq!(chain.error(), Some(Error::ShaftStiffness));
+    /// assert!(Error::ShaftStiffness.message().starts_with("stiffness of the shaft must be positive"));
+    /// ```
     Error:
     MotorInertia => "inertia of the motor must be positive and finite (kg m2)",
     RotorInertia => "inertia of the rotor must be positive and finite (kg m2)",

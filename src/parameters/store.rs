@@ -8,6 +8,13 @@ use embedded_storage::nor_flash::NorFlash;
 use super::record::{self, Parameters, RecordError, RecordState, Refused};
 
 /// Why parameters were not kept or found.
+///
+/// ```
+#[doc = include_str!("flash.txt")]
+/// use driveline::parameters::{Error, Store};
+/// // three pages cannot hold two records of the same size
+/// assert_eq!(Store::new(&mut flash, 0..3 * 2048).err(), Some(Error::Range));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Error<E> {

@@ -6,6 +6,15 @@ use crate::balancing::matrix::Matrix;
 use crate::balancing::scalar::{Complex, given, zero};
 
 /// Record of in-run balancing: the weights to return to, and the influence.
+///
+/// ```
+/// use driveline::balancing::{BalancingMemory, BalancingRecord, Complex};
+/// // what a head goes back to after a power cut; an `Option` is a memory that keeps its content
+/// let mut memory = None;
+/// memory.save(&BalancingRecord::<1, 1>::new([Complex::new(0.004, 0.0)]))?;
+/// assert_eq!(memory.load()?.map(|record| record.weights), Some([Complex::new(0.004, 0.0)]));
+/// # Ok::<(), core::convert::Infallible>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 // Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct BalancingRecord<const ROWS: usize, const PLANES: usize> {
