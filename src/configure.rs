@@ -5,26 +5,6 @@
 //! [`Drive::configure`] configures all parts of a drive. All of it is evaluated by the compiler: the firmware holds the
 //! coefficients, and a machine that cannot be controlled is a compile error with its sentence.
 //!
-//! ```
-//! use driveline::observer::GearedObserver;
-//! use driveline::prelude::*;
-//!
-//! struct Roll;
-//! impl Machine for Roll {
-//!     const CHAIN: Chain = Chain::motor(Inertia(0.35)).shaft(Stiffness(2.0e4), Damping(0.5)).rotor(Inertia(0.05))
-//!         .gear(Ratio(5.0), Efficiency(0.97)).shaft(Stiffness(9.0e4), Damping(10.0)).rotor(Inertia(12.0));
-//!     const RATING: Rating = Rating { torque: Torque(300.0), speed: Speed(150.0), torque_limit: Torque(550.0) };
-//!     const ENCODER: Encoder = Encoder::lines(2048);
-//!     const RATE_HZ: u32 = 10_000;
-//!     // a derived constant that is named is overridden: here the acceleration of the setpoint (rad/s2)
-//!     const RAMP: f64 = 40.0;
-//! }
-//! type RollDrive<N> = Drive<N, GearedObserver<TwoMassObserver>, SpeedLoop>;
-//! static SINGLE: ConfigOf<RollDrive<f32>> = RollDrive::<f32>::configure::<Roll>();
-//! static FIXED: ConfigOf<RollDrive<Fixed>> = RollDrive::<Fixed>::configure::<Roll>();
-//! assert_eq!(SINGLE.governor.ramp, 0.004); // in a tick
-//! ```
-//!
 //! # Parts
 //! | part | constants | needs |
 //! |---|---|---|

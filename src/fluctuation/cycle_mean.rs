@@ -53,17 +53,13 @@ struct Mark<N> {
 /// quarter of a turn.
 ///
 /// ```
-/// use driveline::fluctuation::{CycleMean, CycleMeanConfig, Fluctuation};
-/// use driveline::{sample::Estimate, settings::{Bases, Cycle}};
+#[doc = include_str!("ripple.txt")]
 /// const CONFIG: CycleMeanConfig<f64> = CycleMeanConfig::<f64>::new::<8>(Cycle::TURN, 1e-4, Bases::SI);
-/// let (mut mean, mut phi) = (CycleMean::<8, f64>::default(), 0.0_f64);
-/// for _ in 0..4_000 {
-///     let motor_speed = 150.0 * (1.0 + 0.02 * phi.sin());
-///     phi += 1e-4 * motor_speed;
-///     let angle = ((phi / core::f64::consts::TAU).fract() * 4_294_967_296.0) as u32;
+/// let mut mean = CycleMean::<8, f64>::default();
+/// // in the mean by time 150 sqrt(1 - 0.02^2)
+/// for (angle, motor_speed) in turning().take(4_000) {
 ///     mean.measure(&CONFIG, angle, 0.0, &Estimate { motor_speed, ..Estimate::default() });
 /// }
-/// // the mean by time of such a ripple: 150 sqrt(1 - 0.02^2)
 /// assert!(mean.steady_speed().is_some_and(|speed| (speed - 149.97).abs() < 0.02));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

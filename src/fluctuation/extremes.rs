@@ -71,24 +71,9 @@ enum Slice {
 type Finished<R> = [[Peak<R>; 2]; 2];
 
 /// Cycle by cycle: mean, extremes and delta of the motor's and of the load's speed.
-///
-/// ```
-/// use driveline::fluctuation::{CycleConfig, Extremes, Fluctuation};
-/// use driveline::{sample::Estimate, settings::{Bases, Cycle}};
-/// const CONFIG: CycleConfig = CycleConfig::new(Cycle::TURN, 1e-4, Bases::SI);
-/// let (mut extremes, mut phi) = (Extremes::<f64>::default(), 0.0_f64);
-/// while extremes.cycles() < 5 {
-///     let motor_speed = 150.0 * (1.0 + 0.02 * phi.sin()); // 4 % from peak to peak
-///     phi += 1e-4 * motor_speed;
-///     let angle = ((phi / core::f64::consts::TAU).fract() * 4_294_967_296.0) as u32;
-///     extremes.measure(&CONFIG, angle, 0.0, &Estimate { motor_speed, ..Estimate::default() });
-/// }
-/// let delta = extremes.reading(&CONFIG).map(|cycle| cycle.motor.delta);
-/// assert!(delta.is_some_and(|delta| (delta - 0.04).abs() < 1e-4));
-/// ```
+#[doc = include_str!("extremes/example.txt")]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[doc(alias = "cyclic irregularity")]
 pub struct Extremes<N: Ranked = f32> {
     tick: u32,
     slice: Slice,

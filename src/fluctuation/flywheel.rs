@@ -80,22 +80,18 @@ pub struct Balance {
 /// A flywheel for a permissible delta.
 ///
 /// ```
-/// use driveline::fluctuation::{Balance, CycleConfig, Fluctuation, Series, Waveform, WaveformConfig};
-/// use driveline::{sample::Estimate, settings::{Bases, Cycle}};
+#[doc = include_str!("ripple.txt")]
 /// const CYCLE: CycleConfig = CycleConfig::new(Cycle::TURN, 1e-4, Bases::SI);
 /// const CONFIG: WaveformConfig = WaveformConfig::new::<64>(CYCLE, 16);
-/// let (mut waveform, mut phi) = (Waveform::<64, f64>::default(), 0.0_f64);
-/// let window = loop {
-///     phi += 1e-4 * 150.0 * (1.0 + 0.02 * phi.sin());
-///     let angle = (phi / core::f64::consts::TAU * 4_294_967_296.0) as u64 as u32;
+/// let mut waveform = Waveform::<64, f64>::default();
+/// let window = turning().find_map(|(angle, _)| {
 ///     waveform.measure(&CONFIG, angle, 0.0, &Estimate::default());
-///     if let Some(window) = waveform.take() {
-///         break window;
-///     }
-/// };
+///     waveform.take()
+/// });
 /// // 4 % with 2 kg m2, 2 % wanted: as much again
 /// let machine = Balance { inertia: Series::constant(2.0), slope: 0.0 };
-/// let flywheel = window.ripple(&CONFIG, 4)?.flywheel(&CYCLE, &machine, 0.02).ok_or("no flywheel does")?;
+/// let ripple = window.ok_or("it turns on and on")?.ripple(&CONFIG, 4)?;
+/// let flywheel = ripple.flywheel(&CYCLE, &machine, 0.02).ok_or("no flywheel does")?;
 /// assert!((flywheel.missing - 2.0).abs() < 0.02 && (flywheel.remaining - 0.02).abs() < 1e-4);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

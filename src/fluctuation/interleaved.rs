@@ -10,14 +10,10 @@ use crate::sample::Estimate;
 /// [`Waveform`] and [`Extremes`] of the same cycle, at less than the cost of the pair.
 ///
 /// ```
-/// use driveline::fluctuation::{CycleConfig, Fluctuation, Interleaved, WaveformConfig};
-/// use driveline::{sample::Estimate, settings::{Bases, Cycle}};
+#[doc = include_str!("ripple.txt")]
 /// const CONFIG: WaveformConfig = WaveformConfig::new::<32>(CycleConfig::new(Cycle::TURN, 1e-4, Bases::SI), 4);
-/// let (mut both, mut phi) = (Interleaved::<32, f64>::default(), 0.0_f64);
-/// for _ in 0..4_000 {
-///     let motor_speed = 150.0 * (1.0 + 0.02 * phi.sin());
-///     phi += 1e-4 * motor_speed;
-///     let angle = ((phi / core::f64::consts::TAU).fract() * 4_294_967_296.0) as u32;
+/// let mut both = Interleaved::<32, f64>::default();
+/// for (angle, motor_speed) in turning().take(4_000) {
 ///     both.measure(&CONFIG, angle, 0.0, &Estimate { motor_speed, ..Estimate::default() });
 /// }
 /// // two measurements of one ripple of 4 %

@@ -75,20 +75,16 @@ enum Slice {
 /// The waveform of a cycle's speed and torque over some cycles, in `BINS` bins.
 ///
 /// ```
-/// use driveline::fluctuation::{CycleConfig, Fluctuation, Waveform, WaveformConfig};
-/// use driveline::{sample::Estimate, settings::{Bases, Cycle}};
+#[doc = include_str!("ripple.txt")]
 /// const CONFIG: WaveformConfig = WaveformConfig::new::<64>(CycleConfig::new(Cycle::TURN, 1e-4, Bases::SI), 16);
-/// let (mut waveform, mut phi) = (Waveform::<64, f64>::default(), 0.0_f64);
-/// let window = loop {
-///     phi += 1e-4 * 150.0;
-///     let torque = 40.0 + 10.0 * (2.0 * phi).cos(); // N m, twice a turn
-///     let angle = (phi / core::f64::consts::TAU * 4_294_967_296.0) as u64 as u32;
+/// let mut waveform = Waveform::<64, f64>::default();
+/// let window = turning().find_map(|(angle, _)| {
+///     let theta = f64::from(angle) / 4_294_967_296.0 * core::f64::consts::TAU;
+///     let torque = 40.0 + 10.0 * (2.0 * theta).cos(); // N m, twice a turn
 ///     waveform.measure(&CONFIG, angle, torque, &Estimate::default());
-///     if let Some(window) = waveform.take() {
-///         break window;
-///     }
-/// };
-/// let torque = window.motor_torque(&CONFIG, 4);
+///     waveform.take()
+/// });
+/// let torque = window.map(|window| window.motor_torque(&CONFIG, 4)).unwrap_or_default();
 /// assert!((torque.mean - 40.0).abs() < 0.1 && (torque.order(2).amplitude() - 10.0).abs() < 0.1);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

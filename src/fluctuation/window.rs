@@ -28,23 +28,18 @@ pub struct Window<N: Summed, const BINS: usize> {
 /// Periodic part (ripple) and trend of a window.
 ///
 /// ```
-/// use driveline::fluctuation::{CycleConfig, Fluctuation, Remedy, Waveform, WaveformConfig};
-/// use driveline::{sample::Estimate, settings::{Bases, Cycle}};
+#[doc = include_str!("ripple.txt")]
 /// const CONFIG: WaveformConfig = WaveformConfig::new::<64>(CycleConfig::new(Cycle::TURN, 1e-4, Bases::SI), 16);
-/// let (mut waveform, mut phi) = (Waveform::<64, f64>::default(), 0.0_f64);
-/// let window = loop {
-///     phi += 1e-4 * 150.0 * (1.0 + 0.02 * phi.sin());
-///     let angle = (phi / core::f64::consts::TAU * 4_294_967_296.0) as u64 as u32;
+/// let mut waveform = Waveform::<64, f64>::default();
+/// let window = turning().find_map(|(angle, _)| {
 ///     waveform.measure(&CONFIG, angle, 0.0, &Estimate::default());
-///     if let Some(window) = waveform.take() {
-///         break window;
-///     }
-/// };
-/// let ripple = window.ripple(&CONFIG, 4)?;
+///     waveform.take()
+/// });
+/// let ripple = window.ok_or("it turns on and on")?.ripple(&CONFIG, 4)?;
 /// assert!((ripple.speed.order(1).amplitude() - 0.02 * 150.0).abs() < 0.01);
 /// // 4 % from peak to peak at a steady mean: a flywheel for 1 %
 /// assert_eq!(ripple.remedy(0.01, 0.01), Remedy::Flywheel);
-/// # Ok::<(), driveline::fluctuation::Unusable>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
