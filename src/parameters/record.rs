@@ -154,8 +154,20 @@ pub(super) fn read<P: Parameters>(bytes: &[u8]) -> Result<(P, u32), Refused> {
 
 /// CRC-32 of Ethernet and zip.
 fn crc(bytes: &[u8]) -> u32 {
+    // a compiler makes a table of 1024 bytes of single bits
+    const NIBBLES: [u32; 16] = {
+        let mut table = [0; 16];
+        each!(k, 0..16, {
+            let mut crc = k as u32;
+            each!(_bit, 0..4, {
+                crc = (crc >> 1) ^ (0xedb8_8320 * (crc & 1));
+            });
+            table[k] = crc;
+        });
+        table
+    };
     !bytes.iter().fold(u32::MAX, |crc, &byte| {
-        (0..8).fold(crc ^ byte as u32, |crc, _| if crc & 1 != 0 { (crc >> 1) ^ 0xedb8_8320 } else { crc >> 1 })
+        (0..2).fold(crc ^ u32::from(byte), |crc, _| (crc >> 4) ^ NIBBLES[crc as usize & 15])
     })
 }
 
