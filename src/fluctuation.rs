@@ -18,7 +18,7 @@
 //! contribution of each cylinder ([`Ripple::cylinders`]).
 //!
 //! Lengthy calculations (divisions, sines, the waveform from its bins) are done by a `reading` between the ticks, in
-//! `f64`.
+//! `f32`; those of an `f64` drive and of a toothed wheel in `f64`.
 //!
 //! # Measurement by time
 //! An observer follows a ripple with delay and reduced amplitude, and the quantisation of the encoder increases every

@@ -12,6 +12,7 @@
 mod circular;
 mod exponential;
 mod root;
+pub(crate) mod single;
 
 pub use circular::{atan2, sin_cos};
 pub use exponential::{exp, exp_m1, ln};

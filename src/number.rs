@@ -15,10 +15,12 @@ mod fixed;
 mod float;
 mod interpolate;
 mod part;
+mod real;
 
 pub use fixed::{Coefficient, Fixed};
 pub use interpolate::{Interpolate, Magnitude, Weight};
 pub use part::{Part, StateOf};
+pub use real::Real;
 
 use core::fmt::Debug;
 use core::ops::{Add, Neg, Sub};
@@ -54,6 +56,8 @@ pub trait Number:
     type Coefficient: Copy + Default + PartialEq + Debug;
     /// Remainder carried from one sum to the next.
     type Carry: Copy + Default;
+    /// The float of readings between the ticks: `f64` for itself, `f32` for the others.
+    type Real: Real;
 
     /// Zero.
     const ZERO: Self;
@@ -110,6 +114,8 @@ pub trait Number:
 
     /// The value in the SI unit, or per unit of its base: for calculations between the ticks.
     fn to_real(self) -> f64;
+    /// The same in the precision of the readings.
+    fn real(self) -> Self::Real;
 
     /// The bits, as they travel over a link; an `f64` is rounded to `f32` first.
     fn to_word(self) -> u32;

@@ -112,6 +112,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
     ///
     /// # Errors
     /// [`Error::Size`]; [`Error::Setting`] with the place of the setting in [`InRunConfig`], the limits being one.
+    #[inline(never)]
     pub fn new(config: InRunConfig<T, PLANES>, rows: usize, weights: [Complex<T>; PLANES]) -> Result<Self, Error> {
         if rows == 0 || rows > ROWS || PLANES == 0 {
             return Err(Error::Size);

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use crate::angle::{RotorAngleConfig, Synchronous};
+use crate::math::single::sqrt;
 use crate::number::Number;
 
 /// Where a block of turns ends.
@@ -69,7 +70,7 @@ impl Phasor {
 
     /// Amplitude.
     pub fn amplitude(self) -> f32 {
-        root(self.square())
+        sqrt(self.square())
     }
 }
 
@@ -279,7 +280,7 @@ impl Reading {
         let over = 1.0 / mean.amplitude();
         let drift = slope.amplitude() * (blocks - 1.0);
         // of a straight line through blocks that differ by chance
-        let explained = if places > 0.0 { root(variance / places) * (blocks - 1.0) } else { 0.0 };
+        let explained = if places > 0.0 { sqrt(variance / places) * (blocks - 1.0) } else { 0.0 };
         Ok(Reading {
             phasor: mean,
             variance: variance / blocks,
@@ -287,14 +288,14 @@ impl Reading {
             ticks,
             speed_spread: (longest - shortest) / (ticks * turns),
             drift: if drift > 3.0 * explained { (drift - 3.0 * explained) * over } else { 0.0 },
-            scatter: root(variance) * over,
+            scatter: sqrt(variance) * over,
         })
     }
 
     /// This reading, where it is within limits.
     pub(crate) fn accept(self, clipped: bool, steadiness: &Steadiness) -> Result<Reading, ReadingFault> {
         let amplitude = self.phasor.amplitude();
-        let uncertain = root(self.variance) / amplitude;
+        let uncertain = sqrt(self.variance) / amplitude;
         let relative = if amplitude < steadiness.floor { amplitude / steadiness.floor } else { 1.0 };
         // a NaN is beyond every limit
         if clipped || !amplitude.is_finite() {
@@ -319,18 +320,6 @@ fn held(turn: f32) -> Phasor {
     let sinc = 1.0 - z * (1.0 / 6.0 - z * (1.0 / 120.0 - z / 5040.0));
     let cosine = 1.0 - z * (0.5 - z * (1.0 / 24.0 - z / 720.0));
     Phasor { re: cosine / sinc, im: -x }
-}
-
-/// Square root by Newton's iteration from an exponent halved; zero where the argument is not a positive normal number.
-fn root(x: f32) -> f32 {
-    if !(f32::MIN_POSITIVE..f32::INFINITY).contains(&x) {
-        return if x > 1.0 { x } else { 0.0 };
-    }
-    let mut y = f32::from_bits((x.to_bits() >> 1) + 0x1fbd_1df5);
-    for _ in 0..3 {
-        y = 0.5 * (y + x / y);
-    }
-    y
 }
 
 #[cfg(test)]

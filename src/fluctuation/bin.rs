@@ -25,7 +25,7 @@ pub trait Summed: Number {
     /// `total` and the number.
     fn added_to(self, total: Self::Total) -> Self::Total;
     /// A total in the SI unit, or per unit of its base: for calculations between the ticks.
-    fn total_to_real(total: Self::Total) -> f64;
+    fn total_to_real(total: Self::Total) -> Self::Real;
 }
 
 impl Summed for Fixed {
@@ -38,8 +38,8 @@ impl Summed for Fixed {
         [total as u32, (total >> 32) as u32]
     }
 
-    fn total_to_real([low, high]: [u32; 2]) -> f64 {
-        (u64::from(high) << 32 | u64::from(low)) as i64 as f64 / 268_435_456.0
+    fn total_to_real([low, high]: [u32; 2]) -> f32 {
+        (u64::from(high) << 32 | u64::from(low)) as i64 as f32 * (1.0 / 268_435_456.0)
     }
 }
 
@@ -53,8 +53,8 @@ macro_rules! summed {
                 total + self
             }
 
-            fn total_to_real(total: Self) -> f64 {
-                total.into()
+            fn total_to_real(total: Self) -> Self {
+                total
             }
         }
     };

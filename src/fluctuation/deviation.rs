@@ -7,7 +7,7 @@
 use core::f64::consts::TAU;
 
 use super::series::{Order, Series};
-use crate::math::{sin_cos, sqrt};
+use crate::number::Real;
 
 /// Largest less least of a waveform of noise alone, over its deviation: the range of 80 independent normal values is
 /// above 5.9 in one of twenty.
@@ -15,12 +15,14 @@ const RANGE: f64 = 6.0;
 
 /// Derivative of a delta by the orders of the lateness (cycle), at the angles (2 pi to the cycle) of the largest and
 /// the least speed: the slowness is the derivative of the lateness, the speed its inverse.
-pub(super) fn sensitivity(slowness: &Series, [most, least]: [f64; 2], highest: usize) -> Series {
+#[inline(never)]
+pub(super) fn sensitivity<R: Real>(slowness: &Series<R>, [most, least]: [R; 2], highest: usize) -> Series<R> {
     let mut by = Series::default();
-    for (theta, sign) in [(most, TAU), (least, -TAU)] {
-        let weight = sign / (slowness.at(theta) * slowness.at(theta));
-        for (n, order) in (1_u32..).zip(by.orders.iter_mut().take(highest)) {
-            let (n, (sin, cos)) = (f64::from(n), sin_cos(f64::from(n) * theta));
+    for (theta, sign) in [(most, R::of(TAU)), (least, R::of(-TAU))] {
+        let slow = slowness.at(theta);
+        let weight = sign / (slow * slow);
+        for (n, order) in (1_u32..).map(R::count).zip(by.orders.iter_mut().take(highest)) {
+            let (sin, cos) = (n * theta).sin_cos();
             order.cos += weight * n * sin;
             order.sin -= weight * n * cos;
         }
@@ -29,55 +31,56 @@ pub(super) fn sensitivity(slowness: &Series, [most, least]: [f64; 2], highest: u
 }
 
 /// What the orders leave of the lateness of points over the cycle.
-pub(super) struct Left {
+pub(super) struct Left<R> {
     highest: u32,
-    points: f64,
-    sum: f64,
-    squares: f64,
+    points: R,
+    sum: R,
+    squares: R,
     /// Sums of the two orders next to the highest.
-    next: [Order; 2],
+    next: [Order<R>; 2],
 }
 
-impl Left {
+impl<R: Real> Left<R> {
     pub(super) fn new(highest: usize) -> Self {
-        Left { highest: highest as u32, points: 0.0, sum: 0.0, squares: 0.0, next: Default::default() }
+        Left { highest: highest as u32, points: R::ZERO, sum: R::ZERO, squares: R::ZERO, next: Default::default() }
     }
 
     /// Adds a point: its place and what is left of its lateness (cycle).
-    pub(super) fn add(&mut self, place: f64, left: f64) {
-        self.points += 1.0;
+    #[inline(never)]
+    pub(super) fn add(&mut self, place: R, left: R) {
+        self.points += R::ONE;
         self.sum += left;
         self.squares += left * left;
         for (n, order) in (self.highest + 1..).zip(&mut self.next) {
-            let (sin, cos) = sin_cos(f64::from(n) * TAU * place);
+            let (sin, cos) = (R::count(n) * R::of(TAU) * place).sin_cos();
             (order.cos, order.sin) = (order.cos + left * cos, order.sin + left * sin);
         }
     }
 
-    fn variation(&self) -> f64 {
-        (self.squares - self.sum * self.sum / self.points.max(1.0)).max(0.0)
+    fn variation(&self) -> R {
+        (self.squares - self.sum * self.sum / self.points.max(R::ONE)).max(R::ZERO)
     }
 
     /// Root mean square but for the mean (cycle).
-    pub(super) fn rms(&self) -> f64 {
-        sqrt(self.variation() / self.points.max(1.0))
+    pub(super) fn rms(&self) -> R {
+        (self.variation() / self.points.max(R::ONE)).sqrt()
     }
 
     /// Variance of a point: the orders and the mean are fitted to them (cycle2).
-    pub(super) fn variance(&self) -> f64 {
-        self.variation() / (self.points - f64::from(1 + 2 * self.highest)).max(1.0)
+    pub(super) fn variance(&self) -> R {
+        self.variation() / (self.points - R::count(1 + 2 * self.highest)).max(R::ONE)
     }
 
     /// Variance of a coefficient by points of a variance each, were they even.
-    pub(super) fn of_coefficient(&self, variance: f64) -> f64 {
-        2.0 * variance / self.points.max(1.0)
+    pub(super) fn of_coefficient(&self, variance: R) -> R {
+        R::of(2.0) * variance / self.points.max(R::ONE)
     }
 
     /// Square of the slowness's orders next to the highest.
-    pub(super) fn beyond(&self) -> f64 {
-        (self.highest + 1..).zip(&self.next).fold(0.0, |squares, (n, order)| {
-            let amplitude = f64::from(n) * TAU * 2.0 / self.points.max(1.0) * order.amplitude();
-            squares + amplitude * amplitude
+    pub(super) fn beyond(&self) -> R {
+        (self.highest + 1..).zip(&self.next).fold(R::ZERO, |squares, (n, order)| {
+            let share = R::count(n) * R::of(2.0 * TAU) / self.points.max(R::ONE);
+            squares + share * share * order.square()
         })
     }
 }
@@ -85,18 +88,25 @@ impl Left {
 /// Standard deviation of a delta: `own` is its variance by the noise at its extremes, which are at these angles (2 pi
 /// to the cycle), `coefficient` that of a coefficient of the lateness (cycle2), `beyond` the square of the slowness's
 /// orders next to the highest.
-pub(super) fn deviation(slowness: &Series, at: [f64; 2], [own, coefficient, beyond]: [f64; 3], highest: usize) -> f64 {
-    let (mut value, mut slope) = (0.0, 0.0);
-    for n in (1_u32..).take(highest).map(f64::from) {
-        value += coefficient * (TAU * n) * (TAU * n);
-        slope += coefficient * (TAU * n * n) * (TAU * n * n);
+#[inline(never)]
+pub(super) fn deviation<R: Real>(
+    slowness: &Series<R>,
+    at: [R; 2],
+    [own, coefficient, beyond]: [R; 3],
+    highest: usize,
+) -> R {
+    let (mut value, mut slope) = (R::ZERO, R::ZERO);
+    for n in (1_u32..).take(highest).map(R::count) {
+        let each = coefficient * R::of(TAU * TAU) * n * n;
+        value += each;
+        slope += each * n * n;
     }
     // An extreme rises by half the square of the slope over the curvature; that of the waveform with its noise is
     // up to twice too large. Without a ripple it is the range of the noise.
     let curved = slowness.derivative().derivative();
-    let near: f64 = at.iter().map(|&theta| slope / curved.at(theta).abs()).sum();
-    let delta = at.map(|theta| 1.0 / slowness.at(theta));
-    let (delta, alone) = ((delta[0] - delta[1]).abs(), RANGE * sqrt(value));
-    let widened = near.min(alone).max(delta - sqrt((delta * delta - alone * alone).max(0.0)));
-    sqrt(own + widened * widened + beyond)
+    let near = at.iter().fold(R::ZERO, |sum, &theta| sum + slope / curved.at(theta).abs());
+    let [most, least] = at.map(|theta| R::ONE / slowness.at(theta));
+    let (delta, alone) = ((most - least).abs(), R::of(RANGE) * value.sqrt());
+    let widened = near.min(alone).max(delta - (delta * delta - alone * alone).max(R::ZERO).sqrt());
+    (own + widened * widened + beyond).sqrt()
 }

@@ -15,13 +15,14 @@
 mod peak;
 mod reading;
 
-use core::f64::consts::{PI, TAU};
+use core::f64::consts::TAU;
 
 pub use peak::Ranked;
 pub use reading::{Extreme, Fluctuations, Reading, SpeedErrors};
 
 use super::position::{Position, RADIANS, Way};
 use super::{CycleConfig, Edge, Fluctuation};
+use crate::number::Real;
 use crate::sample::Estimate;
 use peak::{Peak, SEGMENTS, Speed, place};
 
@@ -324,25 +325,26 @@ impl<N: Ranked> Extremes<N> {
     /// The cycle that was finished last. `None` until there is one since the last disturbance or change of direction,
     /// and for a cycle in which an estimated speed was no number or changed its sign.
     ///
-    /// Not for the tick: it divides, in `f64`.
-    pub fn reading(&self, config: &CycleConfig) -> Option<Reading> {
+    /// Not for the tick: it divides.
+    pub fn reading(&self, config: &CycleConfig) -> Option<Reading<N::Real>> {
         let mean = self.mean(config)?;
         let [before, from, to] = [self.edge(2), self.edge(1), self.edge(0)];
-        let ticks = to.since(from, config);
-        let previous = mean.signum() * config.angle / (from.since(before, config) * config.period);
+        let (angle, period) = (N::Real::of(config.angle), N::Real::of(config.period));
+        let (ticks, previous) = (to.since(from, config), angle / (from.since(before, config) * period));
+        let previous = if self.forward { previous } else { -previous };
         let [first, second] = &self.finished;
         let [motor, load] = if self.other { second } else { first };
         let fluctuations = |[max, min]: &[Peak<N::Rank>; 2]| {
             let (max, min) = (self.vertex(config, max), self.vertex(config, min));
             // Negative floats are ordered the other way round.
             let [max, min] = if max.speed < min.speed { [min, max] } else { [max, min] };
-            (max.speed * min.speed >= 0.0 && (max.speed - min.speed).is_finite())
+            (max.speed * min.speed >= N::Real::ZERO && (max.speed - min.speed).is_finite())
                 .then(|| Fluctuations::of(max, min, mean))
         };
         Some(Reading {
             mean,
-            change: if self.good < 3 { None } else { Some(mean - previous) },
-            duration: ticks * config.period,
+            change: (self.good >= 3).then_some(mean - previous),
+            duration: ticks * period,
             motor: fluctuations(motor)?,
             load: fluctuations(load)?,
         })
@@ -350,48 +352,46 @@ impl<N: Ranked> Extremes<N> {
 
     /// Mean speed by time of the cycle that was finished last (rad/s), negative backwards: input of a governor that is
     /// not to act on the ripple.
-    pub fn mean(&self, config: &CycleConfig) -> Option<f64> {
+    pub fn mean(&self, config: &CycleConfig) -> Option<N::Real> {
         if self.good < 2 {
             return None;
         }
         let ticks = self.edge(0).since(self.edge(1), config);
-        let sign = if self.forward { 1.0 } else { -1.0 };
-        let mean = sign * config.angle / (ticks * config.period);
-        (ticks > 0.0 && mean.is_finite()).then_some(mean)
+        let mean = N::Real::of(config.angle) / (ticks * N::Real::of(config.period));
+        (ticks > N::Real::ZERO && mean.is_finite()).then_some(if self.forward { mean } else { -mean })
     }
 
     /// The parabola's vertex through three samples.
-    fn vertex(&self, config: &CycleConfig, peak: &Peak<N::Rank>) -> Extreme {
+    #[inline(never)]
+    fn vertex(&self, config: &CycleConfig, peak: &Peak<N::Rank>) -> Extreme<N::Real> {
+        let r = <N::Real as Real>::of;
+        let cycle = r(config.angle);
         let [before, value, after] =
-            [peak.before, peak.value, peak.after].map(|rank| N::of_rank(rank).to_real() * config.speed);
-        let curvature = before - 2.0 * value + after;
-        let offset = if curvature == 0.0 { 0.0 } else { (0.5 * (before - after) / curvature).clamp(-1.0, 1.0) };
+            [peak.before, peak.value, peak.after].map(|rank| N::of_rank(rank).real() * r(config.speed));
+        let curvature = before - r(2.0) * value + after;
+        let offset = if curvature == N::Real::ZERO { curvature } else { r(0.5) * (before - after) / curvature };
+        let offset = offset.max(r(-1.0)).min(N::Real::ONE);
         // An estimate that cannot be does not lead out of the cycle.
-        let back = (1.0 - offset) * SAMPLE * config.period * value;
-        let back = if back.abs() < config.angle { back } else { 0.0 };
+        let back = (N::Real::ONE - offset) * r(SAMPLE) * r(config.period) * value;
+        let back = if back.abs() < cycle { back } else { N::Real::ZERO };
         let angle = self.place(config, peak) - back;
         // Into the cycle; a motion that is none may lead beyond it by some cycles.
-        let angle = angle - (angle / config.angle) as i32 as f64 * config.angle;
-        let angle = if angle < 0.0 { angle + config.angle } else { angle };
-        Extreme { speed: value - 0.25 * (before - after) * offset, angle }
+        let angle = angle - (angle / cycle).nearest() * cycle;
+        let angle = if angle < N::Real::ZERO { angle + cycle } else { angle };
+        Extreme { speed: value - r(0.25) * (before - after) * offset, angle }
     }
 
     /// Where in the cycle that was finished last a sample was (rad): to the turn by its segment, within it by its
     /// angle.
-    fn place(&self, config: &CycleConfig, peak: &Peak<N::Rank>) -> f64 {
+    fn place(&self, config: &CycleConfig, peak: &Peak<N::Rank>) -> N::Real {
+        let r = <N::Real as Real>::of;
         let (from, to) = (self.edge(1), self.edge(0));
         let foot = if self.forward { from.angle.wrapping_sub(from.beyond) } else { to.angle.wrapping_add(to.beyond) };
-        let segment = config.angle / (f64::from(config.last_segment) + 1.0);
-        let about = (f64::from(peak.place & SEGMENTS) + 0.5) * segment;
-        let mut place = f64::from((peak.place & !SEGMENTS).wrapping_sub(foot)) * RADIANS;
-        // A cycle is of 16 turns at most.
-        for _ in 0..16 {
-            if place + PI < about {
-                place += TAU;
-            }
-        }
-        // The tick at a cycle's end that is found before it.
-        if place - PI > about { place - TAU } else { place }
+        let segment = r(config.angle) / (N::Real::count(config.last_segment) + N::Real::ONE);
+        let about = (N::Real::count(peak.place & SEGMENTS) + r(0.5)) * segment;
+        let place = N::Real::count((peak.place & !SEGMENTS).wrapping_sub(foot)) * r(RADIANS);
+        // whole turns, one less for the tick at a cycle's end that is found before it
+        place + ((about - place) * r(1.0 / TAU)).nearest() * r(TAU)
     }
 }
 

@@ -10,6 +10,7 @@ use super::series::{Circle, GRID, Grid, MAX_ORDER, Series, circle};
 use super::{CycleConfig, Ripple};
 use crate::design::flywheel_inertia;
 use crate::math::sqrt;
+use crate::number::Real;
 
 /// Class of machine with its permissible delta [Notes ch. 5].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,17 +109,18 @@ pub struct Flywheel {
     pub remaining: f64,
 }
 
-impl Ripple {
+impl<R: Real> Ripple<R> {
     /// The flywheel that brings delta, by the arithmetic mean, to `permissible`; `None` where no flywheel does, or a
     /// figure is not positive and finite.
     ///
     /// Not for the tick: some hundred thousand operations in `f64`, square roots among them.
     pub fn flywheel(&self, cycle: &CycleConfig, balance: &Balance, permissible: f64) -> Option<Flywheel> {
         let circle = circle();
-        let speed = self.speed.grid(&circle);
+        let speed: Grid<f64> = self.speed.grid(&super::series::circle()).map(Into::into);
+        let mean: f64 = self.mean.into();
         let inertia = balance.inertia.grid(&circle);
         let sound = inertia.iter().all(|&inertia| inertia > 0.0 && inertia.is_finite())
-            && speed.iter().all(|&speed| speed * self.mean > 0.0 && speed.is_finite());
+            && speed.iter().all(|&speed| speed * mean > 0.0 && speed.is_finite());
         if !(sound && permissible > 0.0 && permissible.is_finite() && balance.slope >= 0.0 && balance.slope.is_finite())
         {
             return None;
@@ -129,14 +131,14 @@ impl Ripple {
         });
         let (least, most) = extremes(&work);
         let machine = Machine { speed, inertia, work, slope: balance.slope, step: cycle.angle / GRID as f64 };
-        let delta = self.motor.delta_arithmetic;
+        let delta = self.motor.delta_arithmetic.into();
         let mut flywheel = Flywheel { energy_swing: most - least, missing: 0.0, delta, remaining: delta };
         if delta <= permissible {
             return Some(flywheel);
         }
         // 1/delta is next to a straight line over the inertia: the secant's method.
         let (mut before, mut at_before) = (0.0, 1.0 / machine.delta(0.0, &circle, cycle)?);
-        let mean = 0.5 * (self.motor.max.speed + self.motor.min.speed);
+        let mean = self.motor.arithmetic_mean.into();
         let mut added = flywheel_inertia(flywheel.energy_swing, mean, permissible).max(1e-3 * balance.inertia.mean);
         for _ in 0..24 {
             let inverse = 1.0 / machine.delta(added, &circle, cycle)?;
@@ -155,7 +157,8 @@ impl Ripple {
     /// The remedy: a flywheel where delta exceeds the permissible value, a governor where the mean speed changes by
     /// more than `drift` of itself in a second.
     pub fn remedy(&self, permissible: f64, drift: f64) -> Remedy {
-        match (self.motor.delta > permissible, self.acceleration.abs() > drift * self.mean.abs()) {
+        let (delta, mean): (f64, f64) = (self.motor.delta.into(), self.mean.into());
+        match (delta > permissible, self.acceleration.into().abs() > drift * mean.abs()) {
             (false, false) => Remedy::Nothing,
             (true, false) => Remedy::Flywheel,
             (false, true) => Remedy::Governor,
@@ -166,10 +169,10 @@ impl Ripple {
 
 /// A machine over its cycle as it was measured.
 struct Machine {
-    speed: Grid,
-    inertia: Grid,
+    speed: Grid<f64>,
+    inertia: Grid<f64>,
     /// Kinetic energy, which is the work of all torques but for a constant.
-    work: Grid,
+    work: Grid<f64>,
     slope: f64,
     /// Angle between two points (rad).
     step: f64,
@@ -177,7 +180,7 @@ struct Machine {
 
 impl Machine {
     /// Delta by the arithmetic mean with a flywheel.
-    fn delta(&self, added: f64, circle: &Circle, cycle: &CycleConfig) -> Option<f64> {
+    fn delta(&self, added: f64, circle: &Circle<f64>, cycle: &CycleConfig) -> Option<f64> {
         // The mean speed over the angle is kept, for only then has the motor given the same work: Newton's method for
         // the energy to begin with.
         let mut energy = self.work.first()? + 0.5 * added * self.speed.first()? * self.speed.first()?;
@@ -197,8 +200,8 @@ impl Machine {
 
     /// The speed over a cycle that begins with this energy, and the sum of its increases; `None` where it stops. By the
     /// rule of trapezia for the motor's part, implicitly, so that a stiff motor does not matter.
-    fn run(&self, added: f64, energy: f64) -> Option<(Grid, f64)> {
-        let mut speeds: Grid = [0.0; GRID];
+    fn run(&self, added: f64, energy: f64) -> Option<(Grid<f64>, f64)> {
+        let mut speeds: Grid<f64> = [0.0; GRID];
         let (mut energy, mut work, mut faster, mut sum) = (energy, *self.work.first()?, None, 0.0);
         let quarter = 0.5 * self.slope * self.step;
         for (((out, &was), &inertia), &now) in speeds.iter_mut().zip(&self.speed).zip(&self.inertia).zip(&self.work) {
@@ -226,7 +229,7 @@ impl Machine {
 }
 
 /// The least and the largest of a grid.
-fn extremes(values: &Grid) -> (f64, f64) {
+fn extremes(values: &Grid<f64>) -> (f64, f64) {
     values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), &value| (least.min(value), most.max(value)))
 }
 

@@ -15,7 +15,7 @@ use core::f64::consts::TAU;
 use super::extremes::Fluctuations;
 use super::series::{Circle, Order, Series, circle};
 use super::{Bin, CycleConfig, Ripple, Summed, WaveformConfig, Window};
-use crate::math::sqrt;
+use crate::number::Real;
 
 /// Two masses and their shaft, referred to the motor.
 ///
@@ -42,38 +42,40 @@ pub struct Drivetrain {
 /// Waveforms on the load side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct LoadSide {
+pub struct LoadSide<R = f64> {
     /// Torque of the shaft over the angle of the cycle (N m).
-    pub shaft_torque: Series,
+    pub shaft_torque: Series<R>,
     /// Speed of the load (rad/s), its trend taken off.
-    pub load_speed: Series,
+    pub load_speed: Series<R>,
     /// Torque of the load (N m).
-    pub load_torque: Series,
+    pub load_torque: Series<R>,
     /// Extremes of the load's speed, and its delta. The deviation is the motor's, by the order that the shaft magnifies
     /// most.
-    pub load: Fluctuations,
+    pub load: Fluctuations<R>,
     /// Energy swing over the cycle, largest less least of the kinetic energy of both masses and the energy in the
     /// shaft: A_max (J) [Notes ch. 5].
-    pub energy_swing: f64,
+    pub energy_swing: R,
 }
 
 impl<N: Summed, const BINS: usize> Window<N, BINS> {
     /// The motor's torque over the angle of the cycle (N m), with orders up to `highest`: the mean of each bin over the
     /// window. A bin without a tick has the torque of the one before it.
-    pub fn motor_torque(&self, config: &WaveformConfig, highest: usize) -> Series {
+    pub fn motor_torque(&self, config: &WaveformConfig, highest: usize) -> Series<N::Real> {
+        let r = <N::Real as Real>::of;
         let of = |bin: &Bin<N>| {
-            (bin.ticks > 0).then(|| N::total_to_real(bin.torque) / f64::from(bin.ticks) * config.cycle.torque)
+            let total = N::total_to_real(bin.torque) * r(config.cycle.torque);
+            (bin.ticks > 0).then(|| total / N::Real::count(bin.ticks))
         };
-        let mut last = self.bins.iter().rev().find_map(of).unwrap_or(0.0);
+        let mut last = self.bins.iter().fold(N::Real::ZERO, |last, bin| of(bin).unwrap_or(last));
         let torques = self.bins.iter().map(|bin| {
             last = of(bin).unwrap_or(last);
             last
         });
-        let mut series = Series::sampled(torques, BINS, 0.5, highest);
+        let mut series = Series::sampled(torques, BINS, r(0.5), highest);
         // A bin's mean is smaller than the value at its middle: sin(x)/x of half a bin.
         for (n, order) in (1_u32..).zip(&mut series.orders) {
-            let x = f64::from(n) * 0.5 * TAU / BINS as f64;
-            let (sin, _) = crate::math::sin_cos(x);
+            let x = N::Real::count(n) * r(0.5 * TAU / BINS as f64);
+            let (sin, _) = x.sin_cos();
             order.cos *= x / sin;
             order.sin *= x / sin;
         }
@@ -81,51 +83,66 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
     }
 }
 
-impl Ripple {
+impl<R: Real> Ripple<R> {
     /// The waveforms on the load side under the motor's `torque` over the cycle.
     ///
-    /// Not for the tick: some ten thousand operations in `f64`.
-    pub fn load_side(&self, cycle: &CycleConfig, machine: &Drivetrain, torque: &Series) -> LoadSide {
+    /// Not for the tick: some ten thousand operations.
+    pub fn load_side(&self, cycle: &CycleConfig, machine: &Drivetrain, torque: &Series<R>) -> LoadSide<R> {
         let circle = circle();
-        let per_angle = TAU / cycle.angle;
+        let angle = R::of(cycle.angle);
+        let per_angle = R::of(TAU) / angle;
+        let [motor, load, stiffness, damping] =
+            [machine.motor_inertia, machine.load_inertia, machine.stiffness, machine.damping].map(R::of);
         let turning = self.speed.mean * per_angle;
-        let shaft_torque = self.reaction(&self.speed, torque, machine.motor_inertia, per_angle, &circle);
-        let mut twist = Series { mean: shaft_torque.mean / machine.stiffness, ..Series::default() };
+        let shaft_torque = self.reaction(&self.speed, torque, motor, per_angle, &circle);
+        let mut twist = Series::constant(shaft_torque.mean / stiffness);
         let mut load_speed = self.speed;
-        let (fitted, mut magnified) = (self.speed.highest() as f64, 0.0_f64);
+        let (fitted, mut magnified) = (R::count(self.speed.highest() as u32), R::ZERO);
         for (((n, torque), twist), speed) in
             (1_u32..).zip(&shaft_torque.orders).zip(&mut twist.orders).zip(&mut load_speed.orders)
         {
-            let n = f64::from(n);
-            let (k, d) = (machine.stiffness, machine.damping * turning * n);
+            let n = R::count(n);
+            let (k, d) = (stiffness, damping * turning * n);
             let size = k * k + d * d;
             // of an order of the motor's speed: 1 - J w^2/(k + i d w)
-            let inertial = machine.motor_inertia * (turning * n) * (turning * n);
-            let square = ((k - inertial) * (k - inertial) + d * d) / size;
-            magnified = if fitted >= n { magnified.max(sqrt(square)) } else { magnified };
+            let left = k - motor * (turning * n) * (turning * n);
+            let square = (left * left + d * d) / size;
+            magnified = if fitted >= n { magnified.max(square) } else { magnified };
             *twist =
                 Order { cos: (k * torque.cos - d * torque.sin) / size, sin: (k * torque.sin + d * torque.cos) / size };
             let rate = twist.derivative(n);
             speed.cos -= turning * rate.cos;
             speed.sin -= turning * rate.sin;
         }
-        let load_torque = self.reaction(&load_speed, &shaft_torque, machine.load_inertia, per_angle, &circle);
-        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+        let load_torque = self.reaction(&load_speed, &shaft_torque, load, per_angle, &circle);
+        let (mut least, mut most) = (R::INFINITY, -R::INFINITY);
         for &(cos, sin) in &circle {
-            let [motor, load, twist] = [&self.speed, &load_speed, &twist].map(|series| series.along(cos, sin));
-            let kinetic = machine.motor_inertia * motor * motor + machine.load_inertia * load * load;
-            let energy = 0.5 * (kinetic + machine.stiffness * twist * twist);
+            // less that of the means, which would hide a small swing
+            let above = |series: &Series<R>| {
+                let value = series.along(cos, sin);
+                (value - series.mean) * (value + series.mean)
+            };
+            let kinetic = motor * above(&self.speed) + load * above(&load_speed);
+            let energy = R::of(0.5) * (kinetic + stiffness * above(&twist));
             least = energy.min(least);
             most = energy.max(most);
         }
-        let deviation = self.motor.deviation * magnified;
-        let load = Fluctuations { deviation, ..load_speed.fluctuations(self.mean, cycle.angle, &circle) };
+        let deviation = self.motor.deviation * magnified.sqrt();
+        let load = Fluctuations { deviation, ..load_speed.fluctuations(self.mean, angle, &circle) };
         LoadSide { shaft_torque, load_speed, load_torque, load, energy_swing: most - least }
     }
 
     /// Torque beyond an inertia accelerated as in `speed`: `torque - J d omega/dt`, d/dt being omega d/dphi and the
     /// trend.
-    fn reaction(&self, speed: &Series, torque: &Series, inertia: f64, per_angle: f64, circle: &Circle) -> Series {
+    #[inline(never)]
+    fn reaction(
+        &self,
+        speed: &Series<R>,
+        torque: &Series<R>,
+        inertia: R,
+        per_angle: R,
+        circle: &Circle<R>,
+    ) -> Series<R> {
         let slope = speed.derivative();
         let values = circle.map(|(cos, sin)| {
             let acceleration = speed.along(cos, sin) * slope.along(cos, sin) * per_angle + self.acceleration;

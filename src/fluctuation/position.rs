@@ -5,7 +5,7 @@
 
 use core::f64::consts::TAU;
 
-use crate::number::Number;
+use crate::number::{Number, Real};
 
 /// A cycle as the tick needs it. Made by [`crate::settings`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,15 +51,16 @@ const LATEST: f64 = 64.0;
 impl<N: Number> Edge<N> {
     /// How long before its tick the end was passed (ticks), where the motor turned by `turned` in a tick (rad);
     /// half a tick where that is undefined.
-    pub fn fraction(&self, turned: f64) -> f64 {
-        let fraction = f64::from(self.beyond) * RADIANS / turned;
-        if fraction < LATEST { fraction } else { 0.5 }
+    pub fn fraction(&self, turned: N::Real) -> N::Real {
+        let fraction = N::Real::count(self.beyond) * N::Real::of(RADIANS) / turned;
+        if fraction < N::Real::of(LATEST) { fraction } else { N::Real::of(0.5) }
     }
 
     /// Ticks from an earlier edge to this one, by the estimated speeds.
-    pub fn since(&self, earlier: &Edge<N>, cycle: &CycleConfig) -> f64 {
-        let fraction = |edge: &Edge<N>| edge.fraction((edge.speed.to_real() * cycle.speed * cycle.period).abs());
-        f64::from(self.tick.wrapping_sub(earlier.tick)) + (fraction(earlier) - fraction(self))
+    pub fn since(&self, earlier: &Edge<N>, cycle: &CycleConfig) -> N::Real {
+        let tick = N::Real::of(cycle.speed) * N::Real::of(cycle.period);
+        let fraction = |edge: &Edge<N>| edge.fraction((edge.speed.real() * tick).abs());
+        N::Real::count(self.tick.wrapping_sub(earlier.tick)) + (fraction(earlier) - fraction(self))
     }
 }
 

@@ -5,14 +5,14 @@ use core::fmt;
 /// Quality of a ripple.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Quality {
+pub struct Quality<R = f64> {
     /// Rms of the angle that the orders leave unexplained (rad): higher orders, pitch errors, jitter's mean.
-    pub residue: f64,
+    pub residue: R,
     /// Rms of the angle by which single cycles differ from their mean (rad); 0 where only the mean is known, as of a
     /// waveform from ticks.
-    pub spread: f64,
+    pub spread: R,
     /// Relative rise of a cycle's duration from one cycle to the next, which was taken off.
-    pub trend: f64,
+    pub trend: R,
     /// Cycles that were not taken between the window's first and last.
     pub missed: u32,
 }

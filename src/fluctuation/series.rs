@@ -1,7 +1,11 @@
 //! A quantity over the angle of a cycle as a Fourier series.
 
+use core::f64::consts::TAU;
+use core::hint::black_box;
+
 use super::extremes::{Extreme, Fluctuations};
-use crate::math::{atan2, hypot, sin_cos};
+use crate::math::atan2;
+use crate::number::Real;
 
 /// The highest order of a cycle that is looked at.
 pub const MAX_ORDER: usize = 16;
@@ -9,26 +13,38 @@ pub const MAX_ORDER: usize = 16;
 /// One order: `cos cos(n theta) + sin sin(n theta)`, with theta the angle of the cycle from 0 to 2 pi.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Order {
+pub struct Order<R = f64> {
     /// Cosine coefficient.
-    pub cos: f64,
+    pub cos: R,
     /// Sine coefficient.
-    pub sin: f64,
+    pub sin: R,
 }
 
-impl Order {
+impl<R: Real> Order<R> {
     /// Half of its peak-to-peak value.
-    pub fn amplitude(&self) -> f64 {
-        hypot(self.cos, self.sin)
+    pub fn amplitude(&self) -> R {
+        self.square().sqrt()
+    }
+
+    /// Square of the amplitude. A call, so that loops over the orders stay loops.
+    #[inline(never)]
+    pub(super) fn square(&self) -> R {
+        self.cos * self.cos + self.sin * self.sin
     }
 
     /// Phase (rad), in (-pi, pi]: the order is `amplitude cos(n theta - phase)`.
-    pub fn phase(&self) -> f64 {
-        atan2(self.sin, self.cos)
+    pub fn phase(&self) -> R {
+        R::of(atan2(self.sin.into(), self.cos.into()))
+    }
+
+    /// Turned further by an angle of this sine and cosine: `cos` and `sin` as those of an angle. A call, as above.
+    #[inline(never)]
+    fn turned(self, (sin, cos): (R, R)) -> Self {
+        Order { cos: self.cos * cos - self.sin * sin, sin: self.sin * cos + self.cos * sin }
     }
 
     /// Its derivative by theta, for the `n`th order.
-    pub(super) fn derivative(&self, n: f64) -> Order {
+    pub(super) fn derivative(&self, n: R) -> Self {
         Order { cos: n * self.sin, sin: -n * self.cos }
     }
 }
@@ -36,56 +52,73 @@ impl Order {
 /// Mean over the angle, and the orders from the first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Series {
+pub struct Series<R = f64> {
     /// The mean over the angle.
-    pub mean: f64,
+    pub mean: R,
     /// Order 1 first.
-    pub orders: [Order; MAX_ORDER],
+    pub orders: [Order<R>; MAX_ORDER],
 }
 
-impl Series {
+impl<R: Real> Series<R> {
     /// The same at every angle.
-    pub fn constant(value: f64) -> Series {
+    pub fn constant(value: R) -> Self {
         Series { mean: value, ..Series::default() }
     }
 
     /// Of a table of values at evenly spaced angles over the cycle, the first at theta = 0 and the last one step before
     /// 2 pi; orders below half of the table's length.
-    pub fn from_samples(values: &[f64]) -> Series {
-        Series::sampled(values.iter().copied(), values.len(), 0.0, values.len().saturating_sub(1) / 2)
+    pub fn from_samples(values: &[R]) -> Self {
+        Series::sampled(values.iter().copied(), values.len(), R::ZERO, values.len().saturating_sub(1) / 2)
     }
 
     /// Of `count` values at evenly spaced angles, the first `offset` steps from theta = 0.
-    pub(super) fn sampled(values: impl Iterator<Item = f64>, count: usize, offset: f64, highest: usize) -> Series {
+    pub(super) fn sampled(values: impl Iterator<Item = R>, count: usize, offset: R, highest: usize) -> Self {
         let mut series = Series::default();
-        let share = 1.0 / count.max(1) as f64;
+        let share = R::ONE / R::count(count.max(1) as u32);
         for (index, value) in (0_u32..).zip(values) {
-            let (sin, cos) = sin_cos(core::f64::consts::TAU * share * (f64::from(index) + offset));
-            let (mut c, mut s) = (1.0, 0.0);
-            series.mean += share * value;
-            for order in series.orders.iter_mut().take(highest) {
-                (c, s) = (c * cos - s * sin, s * cos + c * sin);
-                order.cos += 2.0 * share * value * c;
-                order.sin += 2.0 * share * value * s;
-            }
+            series.add(share * value, (R::of(TAU) * share * (R::count(index) + offset)).sin_cos(), highest);
         }
         series
     }
 
+    /// Adds the share of one of evenly spaced values, at an angle of this sine and cosine.
+    fn add(&mut self, part: R, (sin, cos): (R, R), highest: usize) {
+        self.mean += part;
+        let mut along = Order { cos: part + part, sin: R::ZERO };
+        for order in self.orders.iter_mut().take(highest) {
+            along = along.turned((sin, cos));
+            order.cos += along.cos;
+            order.sin += along.sin;
+        }
+    }
+
     /// Sum of the squares of its coefficients, but for the mean.
-    pub(super) fn square(&self) -> f64 {
-        self.orders.iter().map(|order| order.cos * order.cos + order.sin * order.sin).sum()
+    pub(super) fn square(&self) -> R {
+        self.orders.iter().take(black_box(MAX_ORDER)).fold(R::ZERO, |sum, order| sum + order.square())
     }
 
     /// The highest order that is not zero.
     pub(super) fn highest(&self) -> usize {
-        self.orders.iter().rposition(|order| order.cos != 0.0 || order.sin != 0.0).map_or(0, |last| last + 1)
+        let orders = (1..).zip(self.orders.iter().take(black_box(MAX_ORDER)));
+        orders.fold(0, |highest, (n, order)| if order.square() == R::ZERO { highest } else { n })
     }
 
     /// Its extremes as those of a speed whose mean by time is `mean`, over a cycle of `angle` (rad).
-    pub(super) fn fluctuations(&self, mean: f64, angle: f64, circle: &Circle) -> Fluctuations {
-        let (mut least, mut most) = ((0, f64::INFINITY), (0, f64::NEG_INFINITY));
-        for (index, value) in (0_u32..).zip(self.grid(circle)) {
+    pub(super) fn fluctuations(&self, mean: R, angle: R, circle: &Circle<R>) -> Fluctuations<R> {
+        self.stationary_values(&self.grid(circle), mean, angle, |value| value)
+    }
+
+    /// The extremes of the grid of a speed whose mean by time is `mean`; it is stationary where the series is, and there
+    /// `speed` of it.
+    pub(super) fn stationary_values(
+        &self,
+        grid: &Grid<R>,
+        mean: R,
+        angle: R,
+        speed: impl Fn(R) -> R,
+    ) -> Fluctuations<R> {
+        let (mut least, mut most) = ((0, R::INFINITY), (0, -R::INFINITY));
+        for (index, &value) in (0_u32..).zip(grid) {
             if value < least.1 {
                 least = (index, value);
             }
@@ -94,92 +127,92 @@ impl Series {
             }
         }
         let [max, min] = [most, least].map(|(index, _)| {
-            let theta = self.stationary(core::f64::consts::TAU * f64::from(index) / GRID as f64);
-            let within = if theta < 0.0 { theta + core::f64::consts::TAU } else { theta };
-            Extreme { speed: self.at(theta), angle: within / core::f64::consts::TAU * angle }
+            let theta = self.stationary(R::of(TAU / GRID as f64) * R::count(index));
+            let within = if theta < R::ZERO { theta + R::of(TAU) } else { theta };
+            Extreme { speed: speed(self.at(theta)), angle: within * R::of(1.0 / TAU) * angle }
         });
         Fluctuations::of(max, min, mean)
     }
 
     /// The `n`th order, counted from 1; nothing beyond the last.
-    pub fn order(&self, n: usize) -> Order {
+    pub fn order(&self, n: usize) -> Order<R> {
         n.checked_sub(1).and_then(|index| self.orders.get(index)).copied().unwrap_or_default()
     }
 
     /// Value at the angle theta of the cycle (rad), 2 pi to the cycle whatever its turns.
-    pub fn at(&self, theta: f64) -> f64 {
-        let (sin, cos) = sin_cos(theta);
+    pub fn at(&self, theta: R) -> R {
+        let (sin, cos) = theta.sin_cos();
         self.along(cos, sin)
     }
 
     /// Value where the first order's cosine and sine are these.
-    pub(super) fn along(&self, cos: f64, sin: f64) -> f64 {
-        let (mut c, mut s) = (1.0, 0.0);
+    #[inline(never)]
+    pub(super) fn along(&self, cos: R, sin: R) -> R {
+        let mut along = Order { cos: R::ONE, sin: R::ZERO };
         let mut sum = self.mean;
-        for order in &self.orders {
-            (c, s) = (c * cos - s * sin, s * cos + c * sin);
-            sum += order.cos * c + order.sin * s;
+        // a bound that the compiler does not know leaves a loop
+        for order in self.orders.iter().take(black_box(MAX_ORDER)) {
+            along = along.turned((sin, cos));
+            sum += order.cos * along.cos + order.sin * along.sin;
         }
         sum
     }
 
     /// The derivative by theta.
-    pub fn derivative(&self) -> Series {
+    #[must_use]
+    pub fn derivative(&self) -> Self {
         let mut derived = Series::default();
         for ((n, order), out) in (1_u32..).zip(&self.orders).zip(&mut derived.orders) {
-            *out = order.derivative(f64::from(n));
+            *out = order.derivative(R::count(n));
         }
         derived
     }
 
     /// Of values at evenly spaced angles from theta = 0, with orders up to `highest`.
-    pub(super) fn of(values: &Grid, circle: &Circle, highest: usize) -> Series {
-        let mut series = Series { mean: values.iter().sum::<f64>() / GRID as f64, ..Series::default() };
+    #[inline(never)]
+    pub(super) fn of(values: &Grid<R>, circle: &Circle<R>, highest: usize) -> Self {
+        let mut series = Series::default();
         for (value, &(cos, sin)) in values.iter().zip(circle) {
-            let (mut c, mut s) = (1.0, 0.0);
-            let part = 2.0 * value / GRID as f64;
-            for order in series.orders.iter_mut().take(highest) {
-                (c, s) = (c * cos - s * sin, s * cos + c * sin);
-                order.cos += part * c;
-                order.sin += part * s;
-            }
+            series.add(*value * R::of(1.0 / GRID as f64), (sin, cos), highest);
         }
         series
     }
 
     /// Values at evenly spaced angles from theta = 0.
-    pub(super) fn grid(&self, circle: &Circle) -> Grid {
+    pub(super) fn grid(&self, circle: &Circle<R>) -> Grid<R> {
         circle.map(|(cos, sin)| self.along(cos, sin))
     }
 
     /// Where a stationary value near `theta` is, by Newton's method; `theta` itself where that leads further than an
     /// eighth of a period of the highest order.
-    pub(super) fn stationary(&self, theta: f64) -> f64 {
-        let (slope, curvature) = (self.derivative(), self.derivative().derivative());
+    #[inline(never)]
+    pub(super) fn stationary(&self, theta: R) -> R {
+        let slope = self.derivative();
+        let curvature = slope.derivative();
         let mut found = theta;
         for _ in 0..8 {
             let bend = curvature.at(found);
-            if bend == 0.0 {
+            if bend == R::ZERO {
                 return theta;
             }
             found -= slope.at(found) / bend;
         }
-        if (found - theta).abs() <= core::f64::consts::TAU / GRID as f64 { found } else { theta }
+        if (found - theta).abs() <= R::of(TAU / GRID as f64) { found } else { theta }
     }
 }
 
 /// Points of a grid over the cycle: eight to the highest order's period.
 pub(super) const GRID: usize = 8 * MAX_ORDER;
 
-pub(super) type Grid = [f64; GRID];
+pub(super) type Grid<R> = [R; GRID];
 
 /// Cosine and sine at evenly spaced angles.
-pub(super) type Circle = [(f64, f64); GRID];
+pub(super) type Circle<R> = [(R, R); GRID];
 
-pub(super) fn circle() -> Circle {
-    let mut points = [(1.0, 0.0); GRID];
+pub(super) fn circle<R: Real>() -> Circle<R> {
+    let mut points = [(R::ONE, R::ZERO); GRID];
     for (index, point) in (0_u32..).zip(&mut points) {
-        let (sin, cos) = sin_cos(core::f64::consts::TAU * f64::from(index) / GRID as f64);
+        let (sin, cos) = (R::of(TAU / GRID as f64) * R::count(index)).sin_cos();
         *point = (cos, sin);
     }
     points

@@ -5,12 +5,12 @@ mod ramp;
 use core::f64::consts::TAU;
 
 use super::deviation::{Left, deviation, sensitivity};
-use super::extremes::{Extreme, Fluctuations};
+use super::extremes::Fluctuations;
 use super::position::RADIANS;
 use super::quality::{Quality, Unusable};
-use super::series::{GRID, Order, Series, circle};
+use super::series::{Order, Series, circle};
 use super::{Bin, Edge, Summed, WaveformConfig};
-use crate::math::{nearest, sin_cos, sqrt};
+use crate::number::Real;
 
 pub use super::series::MAX_ORDER;
 pub(super) use ramp::Ramp;
@@ -43,20 +43,20 @@ pub struct Window<N: Summed, const BINS: usize> {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Ripple {
+pub struct Ripple<R = f64> {
     /// Mean speed by time (rad/s); negative backwards.
-    pub mean: f64,
+    pub mean: R,
     /// Acceleration of the cycle's mean speed over the window (rad/s2): the part that is not periodic, which a governor
     /// mends and a flywheel does not; 0 over a single cycle.
-    pub acceleration: f64,
+    pub acceleration: R,
     /// The motor's speed over the angle of the cycle (rad/s), its trend taken off.
-    pub speed: Series,
+    pub speed: Series<R>,
     /// Its extremes, and delta.
-    pub motor: Fluctuations,
+    pub motor: Fluctuations<R>,
     /// Cycles that it is the mean of.
     pub cycles: u32,
     /// How far it can be relied on.
-    pub quality: Quality,
+    pub quality: Quality<R>,
 }
 
 impl<N: Summed, const BINS: usize> Window<N, BINS> {
@@ -74,48 +74,50 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
     /// a whole number of ticks, fewer than some five to a bin, the eighth order of 64 bins may be off by 2e-3: take
     /// more bins, or fewer orders.
     ///
-    /// Not for the tick: some thousand operations in `f64`, and sines.
+    /// Not for the tick: some thousand operations, and sines.
     ///
     /// # Errors
     /// [`Unusable::Ticks`] where the motor turns so fast that the work at the end of a cycle, a slice in every other
     /// tick, comes late; [`Unusable::Trend`].
-    pub fn ripple(&self, config: &WaveformConfig, highest: usize) -> Result<Ripple, Unusable> {
+    pub fn ripple(&self, config: &WaveformConfig, highest: usize) -> Result<Ripple<N::Real>, Unusable> {
+        let r = <N::Real as Real>::of;
+        let (zero, one) = (N::Real::ZERO, N::Real::ONE);
+        let (angle, period) = (r(config.cycle.angle), r(config.cycle.period));
         let highest = highest.min(MAX_ORDER).min(BINS / 4);
-        let cycles = f64::from(self.cycles.max(1));
-        let sign = if self.forward { 1.0 } else { -1.0 };
+        let cycles = N::Real::count(self.cycles.max(1));
+        let sign = if self.forward { one } else { -one };
         // back again while the end of a cycle was dealt with: the ticks there are not one way
-        if self.edges.iter().any(|edge| sign * edge.speed.to_real() < 0.0) {
+        if self.edges.iter().any(|edge| sign * edge.speed.real() < zero) {
             return Err(Unusable::Trend);
         }
         // some orders more, which show the noise
         let fitted = (highest + NEXT).min(MAX_ORDER).min(BINS / 4);
         let mut counted = Series::default();
         for (n, order) in (1_u32..).zip(counted.orders.iter_mut().take(fitted)) {
-            *order = self.counted(f64::from(n));
+            *order = self.counted(n);
             order.sin *= sign;
         }
         // The time from a cycle's end to the tick that noticed it, and the integrals over it, are known from the
         // waveform that they belong to.
         let [first, _, _, last] = self.edges;
-        let whole = f64::from(last.tick.wrapping_sub(first.tick).max(1));
+        let whole = N::Real::count(last.tick.wrapping_sub(first.tick).max(1));
         let cycle = whole / cycles;
-        let is_turn = (config.cycle.angle - TAU).abs() < 1e-9;
-        let few = !(is_turn && self.cycles >= 8) && cycle * TAU < Unusable::OF_A_TURN * config.cycle.angle;
-        if few || cycle < Unusable::TICKS * (f64::from(config.cycle.last_segment) + 1.0) {
+        let is_turn = config.cycle.length == 1 << 30 && config.cycle.last_segment == 3;
+        let few = !(is_turn && self.cycles >= 8) && cycle * r(TAU) < r(Unusable::OF_A_TURN) * angle;
+        if few || cycle < r(Unusable::TICKS) * (N::Real::count(config.cycle.last_segment) + one) {
             return Err(Unusable::Ticks);
         }
         let mut ticks = whole;
-        let mut slowness = Series { mean: 1.0, ..Series::default() };
+        let mut slowness = Series::constant(one);
         let mut beyond_highest = [Order::default(); MAX_ORDER];
-        let mut ramp = Ramp { ends: [TAU * cycles / whole; 2], ..Ramp::default() };
+        let mut ramp = Ramp { ends: [r(TAU) * cycles / whole; 2], ..Ramp::default() };
         for _ in 0..ROUNDS {
-            let ends = self.ends(&slowness, ramp.ends, config.cycle.angle);
+            let ends = self.ends(&slowness, ramp.ends, angle);
             ticks = ends.ticks;
             ramp = Ramp::of(ends.ticks, ends.opening, ends.closing, self.cycles);
             let mut integrals = counted;
-            for (n, order) in (1_u32..).zip(integrals.orders.iter_mut().take(fitted)) {
-                for (part, weight) in ends.parts.iter().zip([1.0, -1.0]) {
-                    let n = f64::from(n);
+            for (n, order) in (1_i32..).zip(integrals.orders.iter_mut().take(fitted)) {
+                for (part, weight) in ends.parts.iter().zip([one, -one]) {
                     let (cos, sin) = part.integral(&slowness, n);
                     let (beyond_cos, beyond_sin) = part.sampled(&slowness, n);
                     order.cos += weight * (cos + beyond_cos);
@@ -130,34 +132,33 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
         for order in &mut slowness.orders {
             order.sin *= sign;
         }
-        let (mut coefficient, mut beyond) = (0.0, 0.0);
-        let orders = (fitted - highest).max(1) as f64;
+        let (mut coefficient, mut beyond) = (zero, zero);
+        let orders = N::Real::count((fitted - highest).max(1) as u32);
         for (n, order) in (1_u32..).zip(&beyond_highest).take(fitted).skip(highest) {
-            let square = order.cos * order.cos + order.sin * order.sin;
-            coefficient += 0.5 * square / (TAU * TAU * f64::from(n * n)) / orders;
-            beyond += if n as usize <= highest + 2 { square } else { 0.0 };
+            let square = order.square();
+            coefficient += r(0.5 / TAU / TAU) * square / (N::Real::count(n * n) * orders);
+            beyond += if n as usize <= highest + 2 { square } else { zero };
         }
-        let rise = ramp.slowness * TAU * cycles / ticks / f64::from(self.cycles.max(1));
-        if rise.abs() > Unusable::RISE {
+        let rise = ramp.slowness * r(TAU) / ticks;
+        if rise.abs() > r(Unusable::RISE) {
             return Err(Unusable::Trend);
         }
         let left = self.left(&slowness, highest);
-        let quality = Quality { residue: left.rms() * config.cycle.angle, trend: rise, ..Quality::default() };
-        let mean = sign * cycles * config.cycle.angle / (ticks * config.cycle.period);
-        let per_tick = config.cycle.angle / TAU / config.cycle.period;
-        let acceleration = sign * per_tick * ramp.acceleration / config.cycle.period;
-        let ripple = Ripple::of(slowness, mean, acceleration, config.cycle.angle, highest, self.cycles);
+        let quality = Quality { residue: left.rms() * angle, trend: rise, ..Quality::default() };
+        let mean = sign * cycles * angle / (ticks * period);
+        let acceleration = sign * angle * r(1.0 / TAU) / period * ramp.acceleration / period;
+        let ripple = Ripple::of(slowness, mean, acceleration, angle, highest, self.cycles);
         let mut ripple = Ripple { quality, ..ripple };
-        let at = [ripple.motor.max, ripple.motor.min].map(|extreme| extreme.angle * TAU / config.cycle.angle);
+        let at = [ripple.motor.max, ripple.motor.min].map(|extreme| extreme.angle * r(TAU) / angle);
         if fitted < highest + 4 {
             (coefficient, beyond) = (left.of_coefficient(left.variance()), left.beyond());
         } else {
             // Three deviations by few values are exceeded as seldom as by many (Student's distribution).
-            coefficient *= 1.0 + 2.0 / orders + 8.0 / (orders * orders);
+            coefficient *= one + r(2.0) / orders + r(8.0) / (orders * orders);
         }
         // Ticks that come back to the same angles have the same rounding in every cycle, which stands in a few orders.
         let again = ticks / cycles;
-        coefficient *= 1.0 + 3.0 / (1.0 + 0.5 * TAU * cycles * (again - nearest(again)).abs());
+        coefficient *= one + r(3.0) / (one + r(0.5 * TAU) * cycles * (again - again.nearest()).abs());
         let beats = Self::beats(again, cycles, highest);
         let own = coefficient * sensitivity(&slowness, at, highest).square() + beats;
         ripple.motor.deviation = deviation(&slowness, at, [own, coefficient, beyond], highest);
@@ -167,35 +168,37 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
     /// Variance of a delta by the beats of ticks and bins: a bin's moments leave the third power of the angle, which
     /// shows as the order by which the ticks to the cycle differ from a multiple of the bins. Ticks that go on within
     /// the bins from cycle to cycle smooth it. The factor is that of uniform motion, of 20,000 windows.
-    fn beats(ticks: f64, cycles: f64, highest: usize) -> f64 {
-        let (mut sum, each) = (0.0, ticks / BINS as f64);
-        for n in (1_u32..).take(highest).map(f64::from) {
-            let h = n * TAU / BINS as f64;
+    fn beats(ticks: N::Real, cycles: N::Real, highest: usize) -> N::Real {
+        let r = <N::Real as Real>::of;
+        let bins = N::Real::count(BINS as u32);
+        let (mut sum, each) = (N::Real::ZERO, ticks / bins);
+        for n in (1_u32..).take(highest).map(N::Real::count) {
+            let h = n * r(TAU) / bins;
             for beside in [-n, n] {
-                let multiple = (ticks + beside) / BINS as f64;
-                let apart = (multiple - nearest(multiple)).abs() * BINS as f64;
-                let amplitude = 0.0073 * h * h * h / (each * each) / (1.0 + 0.5 * TAU * cycles * apart);
-                sum += 2.0 * amplitude * amplitude;
+                let multiple = (ticks + beside) / bins;
+                let apart = (multiple - multiple.nearest()).abs() * bins;
+                let amplitude = r(0.0073) * h * h * h / (each * each) / (N::Real::ONE + r(0.5 * TAU) * cycles * apart);
+                sum += r(2.0) * amplitude * amplitude;
             }
         }
         sum
     }
 
     /// By how much the ticks counted up to the end of each bin differ from the waveform.
-    fn left(&self, slowness: &Series, highest: usize) -> Left {
-        let total: f64 = self.bins.iter().map(|bin| f64::from(bin.ticks)).sum();
-        let (mut counted, mut left) = (0.0, Left::new(highest));
+    fn left(&self, slowness: &Series<N::Real>, highest: usize) -> Left<N::Real> {
+        let total = self.bins.iter().fold(0_u32, |sum, bin| sum.wrapping_add(bin.ticks));
+        let (mut counted, mut left) = (0_u32, Left::new(highest));
         for (index, bin) in (1_u32..).zip(&self.bins) {
-            counted += f64::from(bin.ticks);
-            let place = f64::from(index) / BINS as f64;
+            counted = counted.wrapping_add(bin.ticks);
+            let place = N::Real::count(index) / N::Real::count(BINS as u32);
             // The integral of the slowness over the angle, but for a constant.
-            let mut late = 0.0;
-            for (n, order) in (1_u32..).zip(&slowness.orders) {
-                let n = f64::from(n);
-                let (s, c) = sin_cos(n * TAU * place);
+            let mut late = N::Real::ZERO;
+            for (n, order) in (1_u32..).map(N::Real::count).zip(&slowness.orders) {
+                let (s, c) = (n * N::Real::of(TAU) * place).sin_cos();
                 late += (order.cos * s - order.sin * c) / n;
             }
-            left.add(place, counted / total.max(1.0) - place - late / TAU);
+            let share = N::Real::count(counted) / N::Real::count(total.max(1));
+            left.add(place, share - place - late * N::Real::of(1.0 / TAU));
         }
         left
     }
@@ -203,31 +206,33 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
     /// Sum of cos(n theta) and sin(n theta) over the ticks that were counted. Of many in a bin it is that of the
     /// polynomials nearest over the bin. A few are at the same angles in every cycle where it has a whole number of
     /// them: the sum is that of two angles with their mean and variance.
-    fn counted(&self, n: f64) -> Order {
-        let h = n * TAU / BINS as f64;
+    fn counted(&self, n: u32) -> Order<N::Real> {
+        let r = <N::Real as Real>::of;
+        let h = N::Real::count(n) * r(TAU / BINS as f64);
+        let square = h * h;
         // sin(n e) = n e (1 - h^2/40) and cos(n e) = constant + slope (n e)^2
-        let sine = 1.0 - h * h / 40.0;
-        let constant = 1.0 - h * h * h * h / 4480.0;
-        let square = -0.5 + h * h / 112.0;
+        let sine = N::Real::ONE - square * r(1.0 / 40.0);
+        let constant = N::Real::ONE - square * square * r(1.0 / 4480.0);
+        let slope = r(-0.5) + square * r(1.0 / 112.0);
         let mut sum = Order::default();
         for (index, bin) in (0_u32..).zip(&self.bins).filter(|(_, bin)| bin.ticks > 0) {
-            let ticks = f64::from(bin.ticks);
+            let ticks = N::Real::count(bin.ticks);
             // The distances were rounded down: half a unit is missing, with its effect on the squares.
-            let first = f64::from(bin.first) / 1024.0 + 0.5 * ticks / 1024.0;
+            let first = N::Real::whole(bin.first) * r(1.0 / 1024.0) + r(0.5 / 1024.0) * ticks;
             let second = if bin.ticks > SQUARES {
-                first * first / ticks + ticks / 12.0
+                first * first / ticks + ticks * r(1.0 / 12.0)
             } else {
-                (f64::from(bin.second) + 256.0 * first - ticks / 6.0) / 65_536.0
+                (N::Real::count(bin.second) + r(256.0) * first - ticks * r(1.0 / 6.0)) * r(1.0 / 65_536.0)
             };
-            let (even, odd) = if ticks > MANY * f64::from(self.cycles) {
-                (constant * ticks + square * h * h * second, sine * h * first)
+            let (even, odd) = if ticks > r(MANY) * N::Real::count(self.cycles) {
+                (constant * ticks + slope * square * second, sine * h * first)
             } else {
                 let mean = first / ticks;
-                let (sin, cos) = sin_cos(h * mean);
-                let (_, apart) = sin_cos(h * sqrt((second / ticks - mean * mean).max(0.0)));
+                let (sin, cos) = (h * mean).sin_cos();
+                let (_, apart) = (h * (second / ticks - mean * mean).max(N::Real::ZERO).sqrt()).sin_cos();
                 (ticks * apart * cos, ticks * apart * sin)
             };
-            let (s, c) = sin_cos(h * (f64::from(index) + 0.5));
+            let (s, c) = (h * (N::Real::count(index) + r(0.5))).sin_cos();
             sum.cos += c * even - s * odd;
             sum.sin += s * even + c * odd;
         }
@@ -235,17 +240,20 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
     }
 
     /// The two ends of the window, by the ripple and the speeds without it there (2 pi to the cycle, over ticks).
-    fn ends(&self, ripple: &Series, [from, to]: [f64; 2], angle: f64) -> Ends {
+    fn ends(&self, ripple: &Series<N::Real>, [from, to]: [N::Real; 2], angle: N::Real) -> Ends<N::Real> {
         let [first, second, last_but_one, last] = self.edges;
-        let part = |edge: &Edge<N>, speed| Part { turned: f64::from(edge.beyond) * RADIANS * TAU / angle, speed };
-        let late = |edge: &Edge<N>, speed| part(edge, speed).integral(ripple, 0.0).0;
-        let between = |early: &Edge<N>, late_edge: &Edge<N>, from: f64, to: f64| {
-            f64::from(late_edge.tick.wrapping_sub(early.tick)) + (late(early, from) - late(late_edge, to))
+        let part = |edge: &Edge<N>, speed| Part {
+            turned: N::Real::count(edge.beyond) * N::Real::of(RADIANS * TAU) / angle,
+            speed,
+        };
+        let late = |edge: &Edge<N>, speed| part(edge, speed).integral(ripple, 0).0;
+        let between = |early: &Edge<N>, late_edge: &Edge<N>, from, to| {
+            N::Real::count(late_edge.tick.wrapping_sub(early.tick)) + (late(early, from) - late(late_edge, to))
         };
         // half a tick less
         let counted = |edge: &Edge<N>, speed| {
             let Part { turned, .. } = part(edge, speed);
-            Part { turned: turned - 0.5 * speed / ripple.at(turned), speed }
+            Part { turned: turned - N::Real::of(0.5) * speed / ripple.at(turned), speed }
         };
         Ends {
             ticks: between(&first, &last, from, to),
@@ -256,71 +264,53 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
     }
 }
 
-impl Ripple {
+impl<R: Real> Ripple<R> {
     /// Whether no speed of the cycle is against the mean: a stop within the window may fit orders that pass through
     /// infinity.
     pub(super) fn turns_one_way(&self) -> bool {
-        [self.motor.min, self.motor.max].iter().all(|extreme| extreme.speed / self.mean > 0.0)
+        [self.motor.min, self.motor.max].iter().all(|extreme| extreme.speed / self.mean > R::ZERO)
     }
 
     /// From the slowness over its mean.
-    pub(super) fn of(
-        slowness: Series,
-        mean: f64,
-        acceleration: f64,
-        angle: f64,
-        highest: usize,
-        cycles: u32,
-    ) -> Ripple {
+    #[inline(never)]
+    pub(super) fn of(slowness: Series<R>, mean: R, acceleration: R, angle: R, highest: usize, cycles: u32) -> Self {
         let circle = circle();
         let fast = slowness.grid(&circle).map(|slowness| mean / slowness);
         let speed = Series::of(&fast, &circle, highest);
-        let (mut least, mut most) = ((0, f64::INFINITY), (0, f64::NEG_INFINITY));
-        for (index, &value) in (0_u32..).zip(&fast) {
-            if value < least.1 {
-                least = (index, value);
-            }
-            if value > most.1 {
-                most = (index, value);
-            }
-        }
-        let extreme = |(index, _): (u32, f64)| {
-            let theta = slowness.stationary(TAU * f64::from(index) / GRID as f64);
-            let within = if theta < 0.0 { theta + TAU } else { theta };
-            Extreme { speed: mean / slowness.at(theta), angle: within / TAU * angle }
-        };
-        let motor = Fluctuations::of(extreme(most), extreme(least), mean);
+        let motor = slowness.stationary_values(&fast, mean, angle, |slowness| mean / slowness);
         Ripple { mean, acceleration, speed, motor, cycles, quality: Quality::default() }
     }
 }
 
 /// How long a window was, in ticks.
-struct Ends {
+struct Ends<R> {
     /// The whole of it.
-    ticks: f64,
+    ticks: R,
     /// Its first cycle.
-    opening: f64,
+    opening: R,
     /// Its last cycle.
-    closing: f64,
+    closing: R,
     /// From the first end of a cycle to half a tick before the first tick that was counted; from the last end to half a
     /// tick before the first that was not.
-    parts: [Part; 2],
+    parts: [Part<R>; 2],
 }
 
 /// From a cycle's end on.
-struct Part {
+struct Part<R> {
     /// How far the motor turned (2 pi to the cycle).
-    turned: f64,
+    turned: R,
     /// Its speed without the ripple (the same, over ticks).
-    speed: f64,
+    speed: R,
 }
 
-impl Part {
+impl<R: Real> Part<R> {
     /// Integral of e^(j n theta) over the time (ticks).
-    fn integral(&self, ripple: &Series, n: f64) -> (f64, f64) {
-        let order = |k: f64| {
-            let (sin, cos) = sin_cos(k * self.turned);
-            if k == 0.0 { (self.turned, 0.0) } else { (sin / k, (1.0 - cos) / k) }
+    #[inline(never)]
+    fn integral(&self, ripple: &Series<R>, n: i32) -> (R, R) {
+        let order = |n: i32| {
+            let k = R::whole(n);
+            let (sin, cos) = (k * self.turned).sin_cos();
+            if n == 0 { (self.turned, R::ZERO) } else { (sin / k, (R::ONE - cos) / k) }
         };
         let (re, im) = times_ripple(ripple, n, order);
         let (a, b) = order(n);
@@ -329,25 +319,26 @@ impl Part {
 
     /// By how much the sum over the ticks of e^(j n theta) is beyond its integral, up to here: the integral's
     /// antiderivative times `x/sin x` less 1, with x half of the order's turn in a tick.
-    fn sampled(&self, ripple: &Series, n: f64) -> (f64, f64) {
+    fn sampled(&self, ripple: &Series<R>, n: i32) -> (R, R) {
+        let n = R::whole(n);
         let turn = n * self.speed / ripple.at(self.turned);
-        let square = 0.25 * turn * turn;
-        let share = square * (1.0 / 6.0 + square * (7.0 / 360.0 + square * 31.0 / 15_120.0)) / turn;
-        let (sin, cos) = sin_cos(n * self.turned);
+        let square = R::of(0.25) * turn * turn;
+        let share =
+            square * (R::of(1.0 / 6.0) + square * (R::of(7.0 / 360.0) + square * R::of(31.0 / 15_120.0))) / turn;
+        let (sin, cos) = (n * self.turned).sin_cos();
         (share * sin, -share * cos)
     }
 }
 
 /// Integral of the ripple's orders times e^(j n theta), from that of e^(j k theta): half of an order belongs to each of
 /// n - m and n + m.
-fn times_ripple(ripple: &Series, n: f64, integral: impl Fn(f64) -> (f64, f64)) -> (f64, f64) {
-    let mut sum = (0.0, 0.0);
-    for (m, order) in (1_u32..).zip(ripple.orders.iter().take(ripple.highest())) {
-        let m = f64::from(m);
-        for (k, re, im) in [(n - m, order.cos, order.sin), (n + m, order.cos, -order.sin)] {
+fn times_ripple<R: Real>(ripple: &Series<R>, n: i32, integral: impl Fn(i32) -> (R, R)) -> (R, R) {
+    let mut sum = (R::ZERO, R::ZERO);
+    for (m, order) in (1_i32..).zip(ripple.orders.iter().take(ripple.highest())) {
+        for (k, im) in [(n - m, order.sin), (n + m, -order.sin)] {
             let (a, b) = integral(k);
-            sum.0 += 0.5 * (re * a - im * b);
-            sum.1 += 0.5 * (re * b + im * a);
+            sum.0 += R::of(0.5) * (order.cos * a - im * b);
+            sum.1 += R::of(0.5) * (order.cos * b + im * a);
         }
     }
     sum

@@ -131,6 +131,7 @@ impl Neg for Fixed {
 impl Number for Fixed {
     type Coefficient = Coefficient;
     type Carry = u32;
+    type Real = f32;
 
     const ZERO: Self = Fixed(0);
     const ONE: Self = Fixed::ONE;
@@ -236,6 +237,11 @@ impl Number for Fixed {
     #[inline(always)]
     fn to_real(self) -> f64 {
         self.to_f64()
+    }
+
+    #[inline(always)]
+    fn real(self) -> f32 {
+        self.0 as f32 * (1.0 / 268_435_456.0)
     }
 
     #[inline(always)]

@@ -7,6 +7,7 @@ macro_rules! float {
         impl Number for $float {
             type Coefficient = $float;
             type Carry = ();
+            type Real = $float;
 
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -109,6 +110,11 @@ macro_rules! float {
             #[inline(always)]
             fn to_real(self) -> f64 {
                 self.into()
+            }
+
+            #[inline(always)]
+            fn real(self) -> $float {
+                self
             }
 
             #[inline(always)]

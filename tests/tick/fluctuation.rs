@@ -392,7 +392,7 @@ fn a_series_is_its_orders() {
     // orders below half of the table's length: of ten, four
     let table: Vec<f64> = (0..10).map(|k| of(f64::from(k) / 10.0 * TAU)).collect();
     assert_eq!(Series::from_samples(&table).order(5), Order::default());
-    assert_eq!(Series::from_samples(&[]), Series::default());
+    assert_eq!(Series::from_samples(&[]), Series::<f64>::default());
 }
 
 /// A number of fixed point has 2^28 to its base: a total is the sum of them as whole numbers, over 2^28, however often
@@ -404,7 +404,7 @@ fn a_total_of_fixed_point_is_the_sum_in_two_words() {
     for number in numbers.iter().cycle().take(2_000).map(|&number| Fixed::from_f64(number)) {
         total = number.added_to(total);
         sum += i64::from(number.to_bits());
-        assert_eq!(Fixed::total_to_real(total), sum as f64 / 268_435_456.0);
+        assert_eq!(Fixed::total_to_real(total), sum as f32 / 268_435_456.0);
     }
     assert!(sum < -(1 << 32), "{sum}");
     assert_eq!(f64::total_to_real(0.5_f64.added_to(0.25)), 0.75);

@@ -81,7 +81,7 @@ impl<M: SelfBalanced, A: Adviser> AxisPanel<M, A> {
         [key, value]: [u32; 2],
     ) -> u32
     where
-        N: VibrationNumber + Summed + Ranked + 'static,
+        N: VibrationNumber + Summed<Real = f32> + Ranked + 'static,
         O: Part<N, State: Observer<N, Config: 'static>>,
         G: Part<N, State: Governor<N, Config: 'static>>,
     {
@@ -130,7 +130,7 @@ impl<M: SelfBalanced, A: Adviser> AxisPanel<M, A> {
         scene: &mut impl BetweenTicks<OnAxis<M, N, O, G, Interleaved<BINS>>>,
     ) -> Option<[f32; 3]>
     where
-        N: VibrationNumber + Summed + Ranked + 'static,
+        N: VibrationNumber + Summed<Real = f32> + Ranked + 'static,
         O: Part<N, State: Observer<N, Config: 'static>>,
         G: Part<N, State: Governor<N, Config: 'static>>,
     {

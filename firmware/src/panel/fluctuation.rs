@@ -60,7 +60,7 @@ impl<M: Machine> FluctuationPanel<M> {
 
     /// The answer to [`TAKE`]: keeps the waveform of a window.
     #[inline(never)]
-    pub fn keep<N: Summed, const BINS: usize>(
+    pub fn keep<N: Summed<Real = f32>, const BINS: usize>(
         &mut self,
         config: &WaveformConfig,
         window: Option<Window<N, BINS>>,
@@ -68,15 +68,15 @@ impl<M: Machine> FluctuationPanel<M> {
         let Some(window) = window else { return NOT_YET };
         let Ok(ripple) = window.ripple(config, HIGHEST) else { return NOT_YET };
         let load = ripple.load_side(&config.cycle, &Self::DRIVETRAIN, &window.motor_torque(config, HIGHEST)).load;
-        self.deltas = [ripple.motor, load].map(|of| [of.delta as f32, of.deviation as f32]);
+        self.deltas = [ripple.motor, load].map(|of| [of.delta, of.deviation]);
         for (kept, order) in self.orders.iter_mut().zip(&ripple.speed.orders) {
-            *kept = [order.cos as f32, order.sin as f32];
+            *kept = [order.cos, order.sin];
         }
         DONE
     }
 
     /// The answer to the other keys; 0 to what is none.
-    pub fn number<N: Ranked>(
+    pub fn number<N: Ranked<Real = f32>>(
         &self,
         config: &WaveformConfig,
         [key, value]: [u32; 2],
@@ -107,10 +107,10 @@ impl<M: Machine> FluctuationPanel<M> {
 /// The last finished turn by its extremes, without what the estimates' noise adds to them: mean speed (rad/s), delta of
 /// motor and load, their standard deviations. Zeros where there is none.
 #[inline(never)]
-pub fn last_turn<M: Machine, N: Ranked>(config: &WaveformConfig, extremes: &Extremes<N>) -> [f32; 5] {
+pub fn last_turn<M: Machine, N: Ranked<Real = f32>>(config: &WaveformConfig, extremes: &Extremes<N>) -> [f32; 5] {
     extremes.reading(&config.cycle).map_or([0.0; 5], |turn| {
         let turn = turn.with_errors(&config.cycle, &FluctuationPanel::<M>::ERRORS, HIGHEST);
         let [motor, load] = [turn.motor, turn.load];
-        [turn.mean, motor.delta, load.delta, motor.deviation, load.deviation].map(|value| value as f32)
+        [turn.mean, motor.delta, load.delta, motor.deviation, load.deviation]
     })
 }

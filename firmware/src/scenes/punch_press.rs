@@ -22,7 +22,7 @@ use driveline::design::{
     Actuator, Disturbance, Encoder, GovernorDesign, LoadFeedForward, SpeedLoopDesign, SpeedLoopTuning,
 };
 use driveline::drive::{ConfigOf, Drive};
-use driveline::fluctuation::{Balance, CycleMean, Flywheel, Ripple, Series, Summed, Waveform, WaveformConfig, Window};
+use driveline::fluctuation::{Balance, CycleMean, Flywheel, Series, Summed, Waveform, WaveformConfig, Window};
 use driveline::governor::{CycleAverage, SpeedGovernor, SpeedLoop, SymmetricLimit};
 use driveline::machine::{
     Chain, CrankSlider, Damping, DrivenMechanism, Efficiency, Inertia, Length, Mass, Match, Mechanism, Ratio, Speed,
@@ -179,7 +179,7 @@ impl<N: Number> Beside<PlainDrive<N>> for FromTop {
     }
 }
 
-impl<N: Summed> Beside<MeanDrive<N>> for Notes<N> {
+impl<N: Summed<Real = f32>> Beside<MeanDrive<N>> for Notes<N> {
     fn start(drive: &mut MeanDrive<N>, config: &ConfigOf<MeanDrive<N>>) -> Self {
         drive.observer_mut().home(&config.observer, TOP);
         Notes { window: None, advice: None }
@@ -201,17 +201,16 @@ impl<N: Summed> Beside<MeanDrive<N>> for Notes<N> {
 /// State of a press's panel: the last finished strokes, and the last flywheel.
 pub struct Notes<N: Summed> {
     window: Option<Window<N, BINS>>,
-    advice: Option<(Ripple, Flywheel)>,
+    advice: Option<(f32, Flywheel)>,
 }
 
-impl<N: Summed> Notes<N> {
+impl<N: Summed<Real = f32>> Notes<N> {
     fn answer(&mut self, config: &WaveformConfig, asked: [u32; 2]) -> u32 {
         let [key, value] = asked;
-        let told =
-            |tell: fn(&(Ripple, Flywheel)) -> f64| self.advice.as_ref().map_or(0, |a| (tell(a) as f32).to_bits());
+        let told = |tell: fn(&(f32, Flywheel)) -> f64| self.advice.as_ref().map_or(0, |a| (tell(a) as f32).to_bits());
         match key {
             panel::ADVISE => self.advise(config, f64::from(f32::from_bits(value))),
-            panel::MEAN => told(|(ripple, _)| ripple.mean),
+            panel::MEAN => told(|(mean, _)| f64::from(*mean)),
             panel::DELTA => told(|(_, flywheel)| flywheel.delta),
             panel::ENERGY_SWING => told(|(_, flywheel)| flywheel.energy_swing),
             panel::MISSING => told(|(_, flywheel)| flywheel.missing),
@@ -225,7 +224,7 @@ impl<N: Summed> Notes<N> {
         let Ok(ripple) = window.ripple(config, HIGHEST) else { return panel::NONE };
         // The motor's torque does not follow the speed within a stroke: the governor does not see it.
         let balance = Balance { inertia: Series::from_samples(&INERTIA), slope: 0.0 };
-        self.advice = ripple.flywheel(&config.cycle, &balance, permissible).map(|flywheel| (ripple, flywheel));
+        self.advice = ripple.flywheel(&config.cycle, &balance, permissible).map(|flywheel| (ripple.mean, flywheel));
         if self.advice.is_some() { panel::DONE } else { panel::NONE }
     }
 }

@@ -109,7 +109,7 @@ pub struct Desk {
     fluctuation: FluctuationPanel<SurfaceGrinder>,
 }
 
-impl<N: VibrationNumber + Summed + Ranked> Beside<WholeDrive<N>> for Desk {
+impl<N: VibrationNumber + Summed<Real = f32> + Ranked> Beside<WholeDrive<N>> for Desk {
     fn start(drive: &mut WholeDrive<N>, config: &ConfigOf<WholeDrive<N>>) -> Self {
         Desk { balancing: HeadPanel::start(drive, config), fluctuation: FluctuationPanel::default() }
     }

@@ -3,17 +3,6 @@
 use super::*;
 use crate::settings::PhasorSettings;
 
-#[test]
-fn roots_are_those_of_the_processor() {
-    for n in 1..5000 {
-        let x = f32::from_bits(n * 400_000);
-        // three of Newton's steps from 3 % leave rounding
-        let exact = if x < f32::MIN_POSITIVE { 0.0 } else { x.sqrt() };
-        assert!((root(x) - exact).abs() <= 2e-7 * exact, "{x}");
-    }
-    assert_eq!((root(0.0), root(-1.0), root(f32::NAN), root(f32::INFINITY)), (0.0, 0.0, 0.0, f32::INFINITY));
-}
-
 /// Blocks of one turn of ten ticks, with these growths of sine and cosine, in units of pi.
 fn blocks<const EDGES: usize>(growths: [[f32; 2]; EDGES]) -> ([Edge<f32, 1>; EDGES], PhasorsConfig<f32, 1>) {
     let mut config = PhasorsConfig::<f32, 1>::new(&PhasorSettings::DIRECT, [1.0]);

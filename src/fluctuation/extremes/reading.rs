@@ -4,40 +4,40 @@ use core::f64::consts::TAU;
 
 use super::SAMPLE;
 use crate::fluctuation::CycleConfig;
-use crate::math::{atan2, ln, sqrt};
+use crate::number::Real;
 
 /// A largest or least speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Extreme {
+pub struct Extreme<R = f64> {
     /// Speed (rad/s).
-    pub speed: f64,
+    pub speed: R,
     /// Where in the cycle, from 0 to less than the cycle's angle (rad).
-    pub angle: f64,
+    pub angle: R,
 }
 
 /// How far a speed swings in a cycle [Notes ch. 5].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Fluctuations {
+pub struct Fluctuations<R = f64> {
     /// The largest speed.
-    pub max: Extreme,
+    pub max: Extreme<R>,
     /// The least speed.
-    pub min: Extreme,
+    pub min: Extreme<R>,
     /// (max + min)/2 (rad/s).
-    pub arithmetic_mean: f64,
+    pub arithmetic_mean: R,
     /// (max - min) over the mean by time.
-    pub delta: f64,
+    pub delta: R,
     /// (max - min) over the arithmetic mean.
-    pub delta_arithmetic: f64,
+    pub delta_arithmetic: R,
     /// Standard deviation of both deltas; infinite where the noise of the speed is not known.
-    pub deviation: f64,
+    pub deviation: R,
 }
 
-impl Fluctuations {
+impl<R: Real> Fluctuations<R> {
     /// From the extremes and the mean by time; a delta over no mean at all is infinite or not a number.
-    pub fn of(max: Extreme, min: Extreme, mean: f64) -> Self {
-        let arithmetic_mean = 0.5 * (max.speed + min.speed);
+    pub fn of(max: Extreme<R>, min: Extreme<R>, mean: R) -> Self {
+        let arithmetic_mean = R::of(0.5) * (max.speed + min.speed);
         let swing = max.speed - min.speed;
         Fluctuations {
             max,
@@ -45,7 +45,7 @@ impl Fluctuations {
             arithmetic_mean,
             delta: swing / mean.abs(),
             delta_arithmetic: swing / arithmetic_mean.abs(),
-            deviation: f64::INFINITY,
+            deviation: R::INFINITY,
         }
     }
 }
@@ -53,55 +53,61 @@ impl Fluctuations {
 /// One cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Reading {
+pub struct Reading<R = f64> {
     /// Mean by time (rad/s), of motor and load alike; negative backwards.
-    pub mean: f64,
+    pub mean: R,
     /// The mean less that of the cycle before (rad/s): the part that is not periodic, which a governor mends and a
     /// flywheel does not.
-    pub change: Option<f64>,
+    pub change: Option<R>,
     /// How long the cycle took (s).
-    pub duration: f64,
+    pub duration: R,
     /// The motor.
-    pub motor: Fluctuations,
+    pub motor: Fluctuations<R>,
     /// The load.
-    pub load: Fluctuations,
+    pub load: Fluctuations<R>,
 }
 
 /// Share of the mean that the largest of independent values has which is added to an extreme: values that follow each
 /// other are alike, and the parabola through three of them rises above the largest.
 const WIDENED: [f64; 2] = [0.65, 0.35];
 
-impl Fluctuations {
+impl<R: Real> Fluctuations<R> {
     /// The extremes without what noise of a standard deviation adds to them (rad/s), and the deviation of delta: of so
     /// many samples of a cycle those near an extreme compete, of a wave of once a cycle. The observer's lag is a share
     /// of what it shows.
-    fn without_noise(self, mean: f64, [noise, lag]: [f64; 2], samples: f64) -> Self {
+    fn without_noise(self, mean: R, [noise, lag]: [R; 2], samples: R) -> Self {
         let noise = noise.abs();
         let measured = self.max.speed - self.min.speed;
-        let mut added = 0.0;
-        for _ in 0..4 {
-            let amplitude = (0.5 * measured - WIDENED[0] * added).max(0.25 * noise);
-            let share = if noise > 0.0 { acos_share(noise / amplitude) } else { 0.0 };
-            added = noise * sqrt((1.64 * ln((samples * share).max(1.0)) - 1.2).max(0.0));
+        let mut added = R::ZERO;
+        for _ in 0..core::hint::black_box(4) {
+            let amplitude = (R::of(0.5) * measured - R::of(WIDENED[0]) * added).max(R::of(0.25) * noise);
+            let share = if noise > R::ZERO { acos_share(noise / amplitude) } else { R::ZERO };
+            let widest = R::of(1.64) * (samples * share).max(R::ONE).ln() - R::of(1.2);
+            added = noise * widest.max(R::ZERO).sqrt();
         }
         // no delta is less than none
-        let off = (WIDENED[0] * added).min(0.5 * measured);
+        let off = (R::of(WIDENED[0]) * added).min(R::of(0.5) * measured);
         let [mut max, mut min] = [self.max, self.min];
         (max.speed, min.speed) = (max.speed - off, min.speed + off);
-        let own = 2.0 * noise * noise;
-        let unsure = 2.0 * WIDENED[1] * added;
+        let own = R::of(2.0) * noise * noise;
+        let unsure = R::of(2.0 * WIDENED[1]) * added;
         // beyond half the rate nothing is known
-        let lags = if lag.is_finite() { SUMMED * lag * (measured - 2.0 * off) } else { f64::INFINITY };
-        let deviation = sqrt(own + unsure * unsure + lags * lags) / mean.abs();
+        let lags = if lag.is_finite() { R::of(SUMMED) * lag * (measured - R::of(2.0) * off) } else { R::INFINITY };
+        let deviation = (own + unsure * unsure + lags * lags).sqrt() / mean.abs();
         Fluctuations { deviation, ..Fluctuations::of(max, min, mean) }
     }
 }
 
-/// Share of a cycle in which a cosine is within so much of its largest value.
-fn acos_share(below: f64) -> f64 {
-    let x = below.min(2.0);
-    // the angle whose versed sine it is, by its half
-    2.0 * atan2(sqrt(0.5 * x), sqrt((1.0 - 0.5 * x).max(0.0))) / core::f64::consts::PI
+/// Share of a cycle in which a cosine is within so much of its largest value: `acos(1 - below)/pi`, within 7e-5 rad
+/// (Abramowitz and Stegun, 4.4.45).
+fn acos_share<R: Real>(below: R) -> R {
+    let x = below.min(R::of(2.0));
+    // of the nearer end
+    let near = x.min(R::of(2.0) - x);
+    let y = R::ONE - near;
+    let series = R::of(1.570_728_8) + y * (R::of(-0.212_114_4) + y * (R::of(0.074_261_0) - y * R::of(0.018_729_3)));
+    let share = near.sqrt() * series * R::of(core::f64::consts::FRAC_1_PI);
+    if x > R::ONE { R::ONE - share } else { share }
 }
 
 /// Standard deviation of delta over the largest lag: two deviations are the sum of the orders' amplitudes, which is up
@@ -124,29 +130,32 @@ pub struct SpeedErrors {
 
 impl SpeedErrors {
     /// The lag of one of the two speeds up to a frequency (rad in a tick).
-    fn lag(&self, side: usize, frequency: f64) -> f64 {
-        let (mut scale, mut above) = (frequency / core::f64::consts::PI, f64::INFINITY);
+    fn lag<R: Real>(&self, side: usize, frequency: R) -> R {
+        let (mut scale, mut above) = (frequency * R::of(core::f64::consts::FRAC_1_PI), R::INFINITY);
         for &below in self.lag.get(side).into_iter().flatten() {
-            let below = f64::from(below);
-            if scale > 1.0 {
+            let below = R::of(below.into());
+            if scale > R::ONE {
                 // it grows with the square: in proportion it is not less
-                return below + (above - below) * (scale - 1.0);
+                return below + (above - below) * (scale - R::ONE);
             }
-            (scale, above) = (2.0 * scale, below);
+            (scale, above) = (scale + scale, below);
         }
-        0.5 * scale * above
+        R::of(0.5) * scale * above
     }
 }
 
-impl Reading {
+impl<R: Real> Reading<R> {
     /// The same with the errors of the estimated speeds, of a load torque with orders up to `highest`. Noise makes the
     /// largest speed of a cycle too large and the least too small: they are corrected. The deltas have a deviation by
     /// the noise and by the observer's lag at the highest order; orders beyond it are in no deviation.
     #[must_use]
     pub fn with_errors(self, config: &CycleConfig, errors: &SpeedErrors, highest: usize) -> Self {
-        let samples = self.duration / (SAMPLE * config.period);
-        let frequency = TAU * highest as f64 / (SAMPLE * samples);
-        let of = |side: usize| [errors.noise.get(side).copied().unwrap_or(f64::NAN), errors.lag(side, frequency)];
+        let samples = self.duration / (R::of(SAMPLE) * R::of(config.period));
+        let frequency = R::of(TAU / SAMPLE) * R::count(highest as u32) / samples;
+        let of = |side: usize| {
+            let noise = errors.noise.get(side).copied().unwrap_or(f64::NAN);
+            [R::of(noise), errors.lag(side, frequency)]
+        };
         Reading {
             motor: self.motor.without_noise(self.mean, of(0), samples),
             load: self.load.without_noise(self.mean, of(1), samples),

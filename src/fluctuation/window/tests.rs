@@ -17,9 +17,10 @@ fn ripple(cos: f64, sin: f64) -> Ripple {
 /// The antiderivative of `e^(j n theta)` over the ticks, times `x/sin x - 1`.
 #[test]
 fn ticks_are_beyond_their_integral_as_by_the_closed_form() {
-    for (turned, speed, n) in [(0.4, 0.02, 1.0), (1.3, 0.2, 3.0), (2.0, 0.05, 9.0), (0.7, 0.6, 1.0)] {
+    for (turned, speed, n) in [(0.4_f64, 0.02_f64, 1), (1.3, 0.2, 3), (2.0, 0.05, 9), (0.7, 0.6, 1)] {
         let (cos, sin) = Part { turned, speed }.sampled(&Series::constant(1.0), n);
-        let x: f64 = 0.5 * n * speed;
+        let n = f64::from(n);
+        let x = 0.5 * n * speed;
         let share = (x / x.sin() - 1.0) / (n * speed);
         // the next term of x/sin x, and what some units in the last place of the sine leave of a small difference
         let left = (127.0 / 604_800.0 * x.powi(8) * 1.1 + 2e-15) / (n * speed);
@@ -27,20 +28,21 @@ fn ticks_are_beyond_their_integral_as_by_the_closed_form() {
         assert!((cos - share * s).abs() < left && (sin + share * c).abs() < left, "{cos} {sin} {share}");
     }
     // the turn of a tick by the slowness there
-    let slow = Part { turned: 0.0, speed: 0.2 }.sampled(&of(1.0, 0.0), 1.0);
-    assert_eq!(slow, Part { turned: 0.0, speed: 0.1 }.sampled(&Series::constant(1.0), 1.0));
+    let slow = Part { turned: 0.0, speed: 0.2 }.sampled(&of(1.0, 0.0), 1);
+    assert_eq!(slow, Part { turned: 0.0, speed: 0.1 }.sampled(&Series::constant(1.0), 1));
 }
 
 /// Ticks spread evenly over a bin: the mean of `cos(n e)` is `sin(h/2)/(h/2)`, with `h` the order's turn over it.
 #[test]
 fn a_bin_counts_its_ticks_as_the_integral_over_it() {
     let ticks = 12_000.0;
-    let mut window = Window { bins: [Bin::<f32>::default(); 8], edges: [Edge::default(); 4], cycles: 1, forward: true };
+    let mut window = Window { bins: [Bin::<f64>::default(); 8], edges: [Edge::default(); 4], cycles: 1, forward: true };
     let Bin { ticks: count, first, second, .. } = even(12_000);
     window.bins[2] = Bin { ticks: count, first, second, torque: 0.0 };
-    for n in [1.0, 2.0] {
-        let h = n * TAU / 8.0;
+    for n in [1, 2] {
         let found = window.counted(n);
+        let n = f64::from(n);
+        let h = n * TAU / 8.0;
         // the polynomial is without the sixth power
         let expected = ticks * ((0.5 * h).sin() / (0.5 * h) + f64::powi(h, 6) / 322_560.0);
         let (s, c) = (n * TAU / 8.0 * 2.5).sin_cos();
@@ -52,7 +54,7 @@ fn a_bin_counts_its_ticks_as_the_integral_over_it() {
     // cubic are farthest off, by h^3 (1/24 - 1/40)/2
     let bin = &mut window.bins[2];
     (bin.first, bin.second) = (511 * 12_000, 127 * 127 * 12_000);
-    let found = window.counted(1.0);
+    let found = window.counted(1);
     let (s, c) = (TAU / 8.0 * (2.5 + 511.5 / 1024.0)).sin_cos();
     let off = (found.cos / ticks - c).hypot(found.sin / ticks - s);
     assert!(off < f64::powi(TAU / 8.0, 3) / 120.0, "{off}");
@@ -62,7 +64,7 @@ fn a_bin_counts_its_ticks_as_the_integral_over_it() {
         let (ticks, h) = (f64::from(1 << 19), TAU / 8.0);
         let first = (ticks * (1024.0 * beside - 0.5)) as i32;
         window.bins[2] = Bin { ticks: 1 << 19, first, second: 12_345, torque: 0.0 };
-        let (found, expected) = (window.counted(1.0), ticks * (0.5 * h).sin() / (0.5 * h));
+        let (found, expected) = (window.counted(1), ticks * (0.5 * h).sin() / (0.5 * h));
         let (s, c) = (h * (2.5 + beside)).sin_cos();
         let left = ticks * (f64::powi(h, 6) / 3e5 + beside * f64::powi(h, 3) * (1.0 / 60.0 + 1.0 / 600.0));
         let off = (found.cos - expected * c).hypot(found.sin - expected * s);
@@ -74,15 +76,15 @@ fn a_bin_counts_its_ticks_as_the_integral_over_it() {
 #[test]
 fn a_few_ticks_count_where_they_are() {
     for places in [&[0.21][..], &[-0.37], &[-0.3, 0.3], &[-0.44, 0.1]] {
-        let mut bins = [Bin::<f32>::default(); 8];
+        let mut bins = [Bin::<f64>::default(); 8];
         for place in places {
             bins[5].ticks += 40;
             bins[5].first += 40 * f64::floor(place * 1024.0) as i32;
             bins[5].second += 40 * f64::floor(place * 256.0).powi(2) as u32;
         }
         let window = Window { bins, edges: [Edge::default(); 4], cycles: 40, forward: true };
-        for n in [1.0, 2.0] {
-            let h = n * TAU / 8.0;
+        for n in [1, 2] {
+            let h = f64::from(n) * TAU / 8.0;
             let (found, count) = (window.counted(n), 40.0 * places.len() as f64);
             let sum = |of: fn(f64) -> f64| places.iter().map(|place| 40.0 * of(h * (5.5 + place))).sum::<f64>();
             // half a unit of the distance, and of the squares half of twice the 0.44 that is rounded

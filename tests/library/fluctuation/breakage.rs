@@ -62,7 +62,7 @@ proptest! {
                 let Some(reading) = parts.0.reading(&cycle) else { continue };
                 prop_assert!(reading.mean.is_finite() && reading.duration > 0.0, "{reading:?}");
                 for one in [reading.motor, reading.load] {
-                    let within = |angle: f64| (0.0..=cycle.angle).contains(&angle);
+                    let within = |angle: f32| (0.0..=cycle.angle as f32).contains(&angle);
                     let angles = within(one.max.angle) && within(one.min.angle);
                     prop_assert!(one.delta.is_finite() && angles, "{reading:?}");
                 }

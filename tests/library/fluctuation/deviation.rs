@@ -17,6 +17,7 @@ use driveline::sample::{Estimate, Sample};
 use driveline::settings::{Bases, Cycle, Screening, Teeth, ToothClock};
 use driveline::wheel::{CycleTimes, ToothedWheel, ToothedWheelConfig};
 
+use super::rig::InDouble;
 use crate::balance::noise::Noise;
 
 /// Orders of the speed over its mean by the angle: amplitude and phase.
@@ -144,21 +145,21 @@ fn by_extremes_of_noisy_speeds() {
         let deviation = 0.0025 * 100_f64.powf(noise.even()) * swing * mean;
         let alike = (-1.0 / (60.0 * noise.even() * noise.even())).exp();
         let config = CycleConfig::new(Cycle::TURN, 1e-4, Bases::SI);
-        let mut extremes = Extremes::<f64>::default();
+        let mut extremes = Extremes::<f32>::default();
         let (mut angle, mut off) = (TAU * noise.even(), 0.0);
         while extremes.cycles() < 2 {
             angle += TAU / ticks;
             off = alike * off + (1.0 - alike * alike).sqrt() * noise.normal();
             let load_speed = mean * wave.at(angle) + deviation * off;
-            let estimate = Estimate { motor_speed: mean, load_speed, ..Estimate::default() };
+            let estimate = Estimate { motor_speed: mean as f32, load_speed: load_speed as f32, ..Estimate::default() };
             let turned = (angle / TAU).fract() * 4_294_967_296.0;
             extremes.measure(&config, turned as u32, 0.0, &estimate);
         }
         let [largest, least] = wave.extremes();
         let reading = extremes.reading(&config).unwrap();
-        assert_eq!(reading.load.deviation, f64::INFINITY);
+        assert_eq!(reading.load.deviation, f32::INFINITY);
         let errors = SpeedErrors { noise: [0.0, deviation], lag: [[0.0; _]; 2] };
-        judged.add(reading.with_errors(&config, &errors, 4).load, largest - least);
+        judged.add(reading.with_errors(&config, &errors, 4).load.in_double(), largest - least);
     }
     judged.holds("extremes", 0.1);
 }
@@ -171,7 +172,7 @@ fn between(least: f64, largest: f64, noise: &mut Noise) -> f64 {
 /// A window of 64 bins, by an encoder of so many counts at so many ticks to the turn.
 fn by_ticks(wave: &Wave, ticks: f64, counts: f64, [cycles, orders]: [u32; 2], start: f64) -> Option<Fluctuations> {
     let config = WaveformConfig::new::<64>(CycleConfig::new(Cycle::TURN, 1e-4, Bases::SI), cycles);
-    let mut waveform = Waveform::<64, f64>::default();
+    let mut waveform = Waveform::<64, f32>::default();
     let slowness = wave.grid().map(|speed| 1.0 / speed).sum::<f64>() / 4000.0;
     let (step, mut angle) = (TAU / ticks * slowness / 4.0, start);
     for _ in 0..(ticks * f64::from(cycles + 4)) as u32 {
@@ -182,7 +183,7 @@ fn by_ticks(wave: &Wave, ticks: f64, counts: f64, [cycles, orders]: [u32; 2], st
         let turned = ((angle / TAU * counts).floor() / counts).fract() * 4_294_967_296.0;
         waveform.measure(&config, turned as u32, 0.0, &Estimate { motor_speed: 1.0, ..Estimate::default() });
         if let Some(window) = waveform.take() {
-            return window.ripple(&config, orders as usize).ok().map(|ripple| ripple.motor);
+            return window.ripple(&config, orders as usize).ok().map(|ripple| ripple.motor.in_double());
         }
     }
     None

@@ -9,7 +9,7 @@ use driveline::settings::{Bases, Cycle};
 use serde_json::Value;
 
 use super::motion::{Motion, Part};
-use super::rig::{BASES, Built, MOTOR, PERIOD, RATED, STIFFNESS, run};
+use super::rig::{BASES, Built, InDouble, MOTOR, PERIOD, RATED, STIFFNESS, run};
 
 const PARTS: [Part; 2] = [Part { n: 1.0, amplitude: 0.03, phase: 0.7 }, Part { n: 2.0, amplitude: 0.025, phase: -1.1 }];
 
@@ -37,7 +37,7 @@ fn follow<N: Ranked>(
         };
         extremes.measure(&config, exact(motion.phi), N::ZERO, &estimate);
     }
-    extremes.reading(&config).unwrap()
+    extremes.reading(&config).unwrap().in_double()
 }
 
 /// Delta of the load by the closed form, from a fine grid: at a steady speed its ripple is that of the motor plus the
@@ -180,7 +180,7 @@ fn through_the_drive() {
         seen.extend(drive.fluctuation().0.reading(&config.fluctuation.0));
         false
     });
-    let reading = seen.last().unwrap();
+    let reading = seen.last().unwrap().in_double();
     let (swing, ..) = motion.swing();
     // The two ends of a cycle of 16,384 counts, each to half a count.
     assert!((reading.mean / harmonic_mean(&motion) - 1.0).abs() < 1.0 / 16_384.0, "{reading:?}");

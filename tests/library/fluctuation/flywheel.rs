@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use super::motion::{Motion, Part};
 use super::press::Machine;
-use super::rig::{Built, LOAD, MOTOR, RATED, STIFFNESS, TORQUE, run};
+use super::rig::{Built, InDouble, LOAD, MOTOR, RATED, STIFFNESS, TORQUE, run};
 
 /// A press on a stiff motor, the same on a soft one, and one whose crank and slider make a quarter of its inertia come
 /// and go.
@@ -113,7 +113,7 @@ fn window(
     });
     let taken = taken.unwrap();
     let config = &config.fluctuation.1;
-    (taken.ripple(config, highest).unwrap(), taken.motor_torque(config, highest), config.cycle)
+    (taken.ripple(config, highest).unwrap().in_double(), taken.motor_torque(config, highest).in_double(), config.cycle)
 }
 
 const MACHINE: Drivetrain = Drivetrain { motor_inertia: MOTOR, load_inertia: LOAD, stiffness: STIFFNESS, damping: 0.0 };

@@ -8,7 +8,7 @@ use driveline::sample::Estimate;
 use driveline::settings::{Bases, Cycle};
 use proptest::prelude::*;
 
-use super::rig::{BINS, PERIOD};
+use super::rig::{BINS, InDouble, PERIOD};
 
 fn at<N: Number>(speed: N) -> Estimate<N> {
     Estimate { motor_speed: speed, load_speed: speed, ..Estimate::default() }
@@ -114,12 +114,12 @@ fn drift(ticks: u64) -> ([f64; 2], [f64; 2]) {
         if let Some(window) = parts.1.take()
             && (tick < 10_000 || tick > ticks - 10_000)
         {
-            ends.push(window.ripple(&config.1, 4).unwrap());
+            ends.push(window.ripple(&config.1, 4).unwrap().in_double());
         }
     }
     let (first, last) = (ends.first().unwrap(), ends.last().unwrap());
     let of = |ripple: &driveline::fluctuation::Ripple| [ripple.mean / speed - 1.0, ripple.speed.order(1).phase()];
-    let reading = parts.0.reading(&cycle).unwrap();
+    let reading = parts.0.reading(&cycle).unwrap().in_double();
     assert!((reading.mean / speed - 1.0).abs() < 1e-6, "{reading:?}");
     (of(first), of(last))
 }

@@ -3,9 +3,12 @@
 use driveline::design::{Disturbance, Encoder, Rate, TwoMassDesign};
 use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::fault::Faults;
-use driveline::fluctuation::{CycleConfig, Extremes, Ranked, Summed, Waveform, WaveformConfig};
+use driveline::fluctuation::{
+    CycleConfig, Extreme, Extremes, Fluctuations, Order, Quality, Ranked, Reading, Ripple, Series, Summed, Waveform,
+    WaveformConfig,
+};
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
-use driveline::number::Fixed;
+use driveline::number::{Fixed, Real};
 use driveline::observer::{self, TwoMassConfig};
 use driveline::sample::Sample;
 use driveline::settings::{Bases, Cycle, Screening};
@@ -108,4 +111,62 @@ pub fn run<N: Built>(
         }
     }
     drive
+}
+
+/// What was calculated in the number's own precision, in double precision.
+pub trait InDouble {
+    type Double;
+    fn in_double(self) -> Self::Double;
+}
+
+impl<R: Real> InDouble for Series<R> {
+    type Double = Series;
+    fn in_double(self) -> Series {
+        let orders = self.orders.map(|order| Order { cos: order.cos.into(), sin: order.sin.into() });
+        Series { mean: self.mean.into(), orders }
+    }
+}
+
+impl<R: Real> InDouble for Fluctuations<R> {
+    type Double = Fluctuations;
+    fn in_double(self) -> Fluctuations {
+        let [max, min] = [self.max, self.min].map(|of| Extreme { speed: of.speed.into(), angle: of.angle.into() });
+        Fluctuations {
+            deviation: self.deviation.into(),
+            ..Fluctuations::of(max, min, (max.speed - min.speed) / self.delta.into())
+        }
+    }
+}
+
+impl<R: Real> InDouble for Reading<R> {
+    type Double = Reading;
+    fn in_double(self) -> Reading {
+        Reading {
+            mean: self.mean.into(),
+            change: self.change.map(Into::into),
+            duration: self.duration.into(),
+            motor: self.motor.in_double(),
+            load: self.load.in_double(),
+        }
+    }
+}
+
+impl<R: Real> InDouble for Ripple<R> {
+    type Double = Ripple;
+    fn in_double(self) -> Ripple {
+        let quality = Quality {
+            residue: self.quality.residue.into(),
+            spread: self.quality.spread.into(),
+            trend: self.quality.trend.into(),
+            missed: self.quality.missed,
+        };
+        Ripple {
+            mean: self.mean.into(),
+            acceleration: self.acceleration.into(),
+            speed: self.speed.in_double(),
+            motor: self.motor.in_double(),
+            cycles: self.cycles,
+            quality,
+        }
+    }
 }

@@ -276,7 +276,7 @@ fn both(rate: f64, speed: f64, parts: &[Part]) -> [Result<Ripple, Unusable>; 2] 
     let bins = WaveformConfig::new::<64>(cycle, 16);
     let mut motion = Motion::new(speed, 0.0, 1.0, parts);
     let mut wheel = ToothedWheel::<CycleTimes<58>>::default();
-    let (mut window, mut waveform) = (ToothWindow::<58>::default(), Waveform::<64, f32>::default());
+    let (mut window, mut waveform) = (ToothWindow::<58>::default(), Waveform::<64, f64>::default());
     let mut count = (motion.phi / TAU * 60.0).floor() as i64 + 2;
     let mut tick = 1_u32;
     let mut taken = None;

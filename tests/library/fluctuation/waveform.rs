@@ -8,7 +8,7 @@ use driveline::number::Fixed;
 use driveline::settings::Cycle;
 
 use super::motion::{Motion, Part};
-use super::rig::{BINS, Built, RATED, run};
+use super::rig::{BINS, Built, InDouble, RATED, run};
 
 /// An order once a turn, delta 1/500.
 const ONE: [Part; 1] = [Part { n: 1.0, amplitude: 1e-3, phase: 2.1 }];
@@ -30,7 +30,16 @@ fn window<N: Built>(motion: &mut Motion, cycle: Cycle, cycles: u32, highest: usi
     });
     let window = window.expect("a window within 70 s");
     let ripple = window.ripple(&config.fluctuation.1, highest).unwrap();
-    (window, ripple)
+    (window, ripple.in_double())
+}
+
+/// Of readings in double and in single precision.
+fn ripples(of: impl Fn() -> Motion, cycle: Cycle, cycles: u32, highest: usize) -> [(Ripple, Motion); 3] {
+    let (mut double, mut single, mut fixed) = (of(), of(), of());
+    let (_, in_double) = window::<f64>(&mut double, cycle, cycles, highest);
+    let (_, in_single) = window::<f32>(&mut single, cycle, cycles, highest);
+    let (_, in_fixed) = window::<Fixed>(&mut fixed, cycle, cycles, highest);
+    [(in_double, double), (in_single, single), (in_fixed, fixed)]
 }
 
 /// By how far an order's phase is off, wrapped (degrees); the cycle began `turn` turns of the motor later than the
@@ -94,11 +103,11 @@ const MOTIONS: [(f64, f64); 8] = [
 #[test]
 fn a_delta_of_a_500th_is_right_to_a_hundredth() {
     for (speed, ramp) in MOTIONS {
-        let mut motion = Motion::new(speed, ramp, 1.0, &ONE);
-        let (_, ripple) = window::<f64>(&mut motion, Cycle::TURN, 128, 4);
-        compare(&ripple, &motion, [0.01, 0.005, 0.5, 0.01]);
-        assert_eq!(ripple.cycles, 128);
-        assert!((ripple.acceleration - ramp).abs() < 0.01, "{ripple:?}");
+        for (ripple, motion) in ripples(|| Motion::new(speed, ramp, 1.0, &ONE), Cycle::TURN, 128, 4) {
+            compare(&ripple, &motion, [0.01, 0.005, 0.5, 0.01]);
+            assert_eq!(ripple.cycles, 128);
+            assert!((ripple.acceleration - ramp).abs() < 0.01, "{ripple:?}");
+        }
     }
 }
 
@@ -107,10 +116,10 @@ fn a_delta_of_a_500th_is_right_to_a_hundredth() {
 #[test]
 fn a_delta_of_two_orders_is_right_to_a_hundredth() {
     for (speed, ramp) in MOTIONS {
-        let mut motion = Motion::new(speed, ramp, 2.0, &SMALL);
-        let (_, ripple) = window::<f64>(&mut motion, Cycle::FOUR_STROKE, 64, 4);
-        compare(&ripple, &motion, [0.01, 0.01, 0.5, 0.01]);
-        assert!((ripple.acceleration - ramp).abs() < 0.01, "{ripple:?}");
+        for (ripple, motion) in ripples(|| Motion::new(speed, ramp, 2.0, &SMALL), Cycle::FOUR_STROKE, 64, 4) {
+            compare(&ripple, &motion, [0.01, 0.01, 0.5, 0.01]);
+            assert!((ripple.acceleration - ramp).abs() < 0.01, "{ripple:?}");
+        }
     }
 }
 
@@ -119,10 +128,10 @@ fn a_delta_of_two_orders_is_right_to_a_hundredth() {
 #[test]
 fn a_large_delta_is_right_as_well_at_any_speed_and_backwards() {
     for (speed, ramp) in [(157.0, 0.0), (80.0, 8.0), (20.0, 0.0), (-157.0, 0.0), (-80.0, -8.0)] {
-        let mut motion = Motion::new(speed, ramp, 2.0, &LARGE);
-        let (_, ripple) = window::<f64>(&mut motion, Cycle::FOUR_STROKE, 16, 8);
-        compare(&ripple, &motion, [0.005, 0.002, 0.2, 0.005]);
-        assert_eq!(ripple.mean.signum(), speed.signum());
+        for (ripple, motion) in ripples(|| Motion::new(speed, ramp, 2.0, &LARGE), Cycle::FOUR_STROKE, 16, 8) {
+            compare(&ripple, &motion, [0.005, 0.002, 0.2, 0.005]);
+            assert_eq!(ripple.mean.signum(), speed.signum());
+        }
     }
 }
 
@@ -130,13 +139,14 @@ fn a_large_delta_is_right_as_well_at_any_speed_and_backwards() {
 #[test]
 fn a_cycle_can_be_any_ratio() {
     let cycle = Cycle { turns: 2, cycles: 3 };
-    let mut motion = Motion::new(RATED, 0.0, 2.0 / 3.0, &LARGE);
-    let (_, ripple) = window::<f64>(&mut motion, cycle, 48, 8);
-    compare(&ripple, &motion, [0.005, 0.002, 0.2, 0.005]);
     // At 0.1 % of the rated speed: the window ends early, after what its bins can hold.
-    let mut motion = Motion::new(1e-3 * RATED, 0.0, 2.0 / 3.0, &LARGE);
-    let (_, ripple) = window::<f64>(&mut motion, cycle, 1, 8);
-    compare(&ripple, &motion, [0.01, 0.005, 0.5, 0.01]);
+    for (speed, cycles, limits) in
+        [(RATED, 48, [0.005, 0.002, 0.2, 0.005]), (1e-3 * RATED, 1, [0.01, 0.005, 0.5, 0.01])]
+    {
+        for (ripple, motion) in ripples(|| Motion::new(speed, 0.0, 2.0 / 3.0, &LARGE), cycle, cycles, 8) {
+            compare(&ripple, &motion, limits);
+        }
+    }
 }
 
 /// What the bins hold of the angle.
