@@ -55,7 +55,6 @@ pub(crate) fn real<T: Scalar>(value: f64) -> T {
 }
 
 /// Amplitude, without overflow on the way. That of `libm` in `f32` calculates in `f64`.
-#[inline(never)]
 pub(crate) fn size<T: Scalar>(z: Complex<T>) -> T {
     let (re, im) = (z.re.abs(), z.im.abs());
     let (most, least) = if re < im { (im, re) } else { (re, im) };

@@ -66,8 +66,8 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
             let total = N::total_to_real(bin.torque) * r(config.cycle.torque);
             (bin.ticks > 0).then(|| total / N::Real::count(bin.ticks))
         };
-        let mut last = self.bins.iter().fold(N::Real::ZERO, |last, bin| of(bin).unwrap_or(last));
-        let torques = self.bins.iter().map(|bin| {
+        let mut last = self.kept().iter().fold(N::Real::ZERO, |last, bin| of(bin).unwrap_or(last));
+        let torques = self.kept().iter().map(|bin| {
             last = of(bin).unwrap_or(last);
             last
         });
@@ -107,7 +107,7 @@ impl<R: Real> Ripple<R> {
             // of an order of the motor's speed: 1 - J w^2/(k + i d w)
             let left = k - motor * (turning * n) * (turning * n);
             let square = (left * left + d * d) / size;
-            magnified = if fitted >= n { magnified.max(square) } else { magnified };
+            magnified = if fitted >= n { square.max(magnified) } else { magnified };
             *twist =
                 Order { cos: (k * torque.cos - d * torque.sin) / size, sin: (k * torque.sin + d * torque.cos) / size };
             let rate = twist.derivative(n);

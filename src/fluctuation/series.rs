@@ -92,30 +92,35 @@ impl<R: Real> Series<R> {
         }
     }
 
+    /// The orders, in a number that the compiler does not know: a loop over them stays one.
+    fn kept(&self) -> &[Order<R>] {
+        black_box(self.orders.as_slice())
+    }
+
     /// Sum of the squares of its coefficients, but for the mean.
     pub(super) fn square(&self) -> R {
-        self.orders.iter().take(black_box(MAX_ORDER)).fold(R::ZERO, |sum, order| sum + order.square())
+        self.kept().iter().fold(R::ZERO, |sum, order| sum + order.square())
     }
 
     /// The highest order that is not zero.
     pub(super) fn highest(&self) -> usize {
-        let orders = (1..).zip(self.orders.iter().take(black_box(MAX_ORDER)));
-        orders.fold(0, |highest, (n, order)| if order.square() == R::ZERO { highest } else { n })
+        self.kept().iter().rposition(|order| order.square() != R::ZERO).map_or(0, |last| last + 1)
     }
 
     /// Its extremes as those of a speed whose mean by time is `mean`, over a cycle of `angle` (rad).
     pub(super) fn fluctuations(&self, mean: R, angle: R, circle: &Circle<R>) -> Fluctuations<R> {
-        self.stationary_values(&self.grid(circle), mean, angle, |value| value)
+        self.stationary_values(&self.grid(circle), mean, angle, &|value| value)
     }
 
     /// The extremes of the grid of a speed whose mean by time is `mean`; it is stationary where the series is, and there
     /// `speed` of it.
+    #[inline(never)]
     pub(super) fn stationary_values(
         &self,
         grid: &Grid<R>,
         mean: R,
         angle: R,
-        speed: impl Fn(R) -> R,
+        speed: &dyn Fn(R) -> R,
     ) -> Fluctuations<R> {
         let (mut least, mut most) = ((0, R::INFINITY), (0, -R::INFINITY));
         for (index, &value) in (0_u32..).zip(grid) {
@@ -150,8 +155,7 @@ impl<R: Real> Series<R> {
     pub(super) fn along(&self, cos: R, sin: R) -> R {
         let mut along = Order { cos: R::ONE, sin: R::ZERO };
         let mut sum = self.mean;
-        // a bound that the compiler does not know leaves a loop
-        for order in self.orders.iter().take(black_box(MAX_ORDER)) {
+        for order in self.kept() {
             along = along.turned((sin, cos));
             sum += order.cos * along.cos + order.sin * along.sin;
         }
@@ -179,6 +183,7 @@ impl<R: Real> Series<R> {
     }
 
     /// Values at evenly spaced angles from theta = 0.
+    #[inline(never)]
     pub(super) fn grid(&self, circle: &Circle<R>) -> Grid<R> {
         circle.map(|(cos, sin)| self.along(cos, sin))
     }
@@ -209,6 +214,7 @@ pub(super) type Grid<R> = [R; GRID];
 /// Cosine and sine at evenly spaced angles.
 pub(super) type Circle<R> = [(R, R); GRID];
 
+#[inline(never)]
 pub(super) fn circle<R: Real>() -> Circle<R> {
     let mut points = [(R::ONE, R::ZERO); GRID];
     for (index, point) in (0_u32..).zip(&mut points) {

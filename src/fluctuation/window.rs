@@ -184,11 +184,16 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
         sum
     }
 
+    /// The bins, in a number that the compiler does not know: a loop over them stays one.
+    pub(super) fn kept(&self) -> &[Bin<N>] {
+        core::hint::black_box(self.bins.as_slice())
+    }
+
     /// By how much the ticks counted up to the end of each bin differ from the waveform.
     fn left(&self, slowness: &Series<N::Real>, highest: usize) -> Left<N::Real> {
-        let total = self.bins.iter().fold(0_u32, |sum, bin| sum.wrapping_add(bin.ticks));
+        let total = self.kept().iter().fold(0_u32, |sum, bin| sum.wrapping_add(bin.ticks));
         let (mut counted, mut left) = (0_u32, Left::new(highest));
-        for (index, bin) in (1_u32..).zip(&self.bins) {
+        for (index, bin) in (1_u32..).zip(self.kept()) {
             counted = counted.wrapping_add(bin.ticks);
             let place = N::Real::count(index) / N::Real::count(BINS as u32);
             // The integral of the slowness over the angle, but for a constant.
@@ -215,7 +220,7 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
         let constant = N::Real::ONE - square * square * r(1.0 / 4480.0);
         let slope = r(-0.5) + square * r(1.0 / 112.0);
         let mut sum = Order::default();
-        for (index, bin) in (0_u32..).zip(&self.bins).filter(|(_, bin)| bin.ticks > 0) {
+        for (index, bin) in (0_u32..).zip(self.kept()).filter(|(_, bin)| bin.ticks > 0) {
             let ticks = N::Real::count(bin.ticks);
             // The distances were rounded down: half a unit is missing, with its effect on the squares.
             let first = N::Real::whole(bin.first) * r(1.0 / 1024.0) + r(0.5 / 1024.0) * ticks;
@@ -277,7 +282,7 @@ impl<R: Real> Ripple<R> {
         let circle = circle();
         let fast = slowness.grid(&circle).map(|slowness| mean / slowness);
         let speed = Series::of(&fast, &circle, highest);
-        let motor = slowness.stationary_values(&fast, mean, angle, |slowness| mean / slowness);
+        let motor = slowness.stationary_values(&fast, mean, angle, &|slowness| mean / slowness);
         Ripple { mean, acceleration, speed, motor, cycles, quality: Quality::default() }
     }
 }

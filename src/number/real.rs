@@ -48,21 +48,21 @@ pub trait Real:
     /// Whether it is neither infinite nor NaN.
     fn is_finite(self) -> bool;
 
-    /// The larger of two; the other one for a NaN.
+    /// The larger of two; the other one where this is a NaN.
     #[must_use]
     fn max(self, other: Self) -> Self {
-        if self < other || self != self { other } else { self }
+        if self > other { self } else { other }
     }
 
-    /// The smaller of two; the other one for a NaN.
+    /// The smaller of two; the other one where this is a NaN.
     #[must_use]
     fn min(self, other: Self) -> Self {
-        if self > other || self != self { other } else { self }
+        if self < other { self } else { other }
     }
 }
 
 macro_rules! real {
-    ($float:ident, $functions:path) => {
+    ($float:ident, $($functions:ident)::+) => {
         impl Real for $float {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -89,23 +89,19 @@ macro_rules! real {
             }
 
             fn sqrt(self) -> Self {
-                use $functions as functions;
-                functions::sqrt(self)
+                $($functions)::+::sqrt(self)
             }
 
             fn sin_cos(self) -> (Self, Self) {
-                use $functions as functions;
-                functions::sin_cos(self)
+                $($functions)::+::sin_cos(self)
             }
 
             fn ln(self) -> Self {
-                use $functions as functions;
-                functions::ln(self)
+                $($functions)::+::ln(self)
             }
 
             fn nearest(self) -> Self {
-                use $functions as functions;
-                functions::nearest(self)
+                $($functions)::+::nearest(self)
             }
 
             #[inline(always)]
