@@ -15,6 +15,7 @@ use core::f64::consts::TAU;
 use super::Ripple;
 use super::series::{Order, Series, circle};
 use crate::math::{hypot, sin_cos, sqrt};
+use crate::number::Real;
 
 /// An engine with `CYLINDERS` cylinders that fire evenly, once in the cycle of its ripple.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,7 +98,7 @@ const LEAKED: f64 = 0.35;
 /// the lowest orders; taken as even over all it is stated too large.
 const CERTAIN: f64 = 2.0;
 
-impl Ripple {
+impl<R: Real> Ripple<R> {
     /// The cylinders in the firing order, from a ripple whose orders reach half the number of cylinders, and from the
     /// mean torque of the engine's gases (N m): that of the load, friction included.
     ///
@@ -113,12 +114,13 @@ impl Ripple {
         let count = CYLINDERS.max(1) as f64;
         let circle = circle();
         let half = CYLINDERS / 2;
-        let energy = self.speed.grid(&circle).map(|speed| 0.5 * speed * speed);
+        let [mean, spread] = [self.mean, self.quality.spread].map(Into::<f64>::into);
+        let energy = self.speed.grid(&super::series::circle()).map(|speed| 0.5 * speed.into() * speed.into());
         let per_inertia = Series::of(&energy, &circle, half).derivative();
         let mut differences = [0.0; CYLINDERS];
         let mut variance = 0.0;
         // The scatter of an amplitude (rad) over its teeth and cycles, and of the order of the torque that it makes.
-        let scatter = self.quality.spread / sqrt(0.5 * teeth.max(1) as f64 * f64::from(self.cycles.max(1)));
+        let scatter = spread / sqrt(0.5 * teeth.max(1) as f64 * f64::from(self.cycles.max(1)));
         for (m, order) in (1_u32..).zip(per_inertia.orders.iter().take(half)) {
             let k = f64::from(m) / turns;
             // (1 + j k a)^2/2, as a complex number.
@@ -126,7 +128,7 @@ impl Ripple {
             let (re, im) = (0.5 * (1.0 - ka * ka), ka);
             // cos - j sin, per radian of the crank.
             let (a, b) = (order.cos / turns, -order.sin / turns);
-            let (j, lag) = engine.inertia_at(k * self.mean);
+            let (j, lag) = engine.inertia_at(k * mean);
             let (a, b) = (a * j - b * lag, a * lag + b * j);
             let sum = Order { cos: a * re - b * im, sin: a * im + b * re };
             let alone = 2 * m as usize == CYLINDERS;
@@ -136,7 +138,7 @@ impl Ripple {
                 let (s, c) = sin_cos(f64::from(m) * firing);
                 *difference += weight * (sum.cos * c - sum.sin * s);
             }
-            let size = 0.5 * (1.0 + ka * ka) * hypot(j, lag) * self.mean * self.mean * k * k * scatter;
+            let size = 0.5 * (1.0 + ka * ka) * hypot(j, lag) * mean * mean * k * k * scatter;
             variance += weight * weight * size * size;
         }
         let own = mean_torque / count;
@@ -145,7 +147,7 @@ impl Ripple {
         let at = |index: usize| sorted.get(index).copied().unwrap_or(0.0);
         let median = own + 0.5 * (at(half) + at((CYLINDERS.saturating_sub(1)) / 2));
         // an order that is exactly zero was not among those of the ripple
-        let missing = self.speed.orders.iter().take(half).any(|order| order.cos == 0.0 && order.sin == 0.0);
+        let missing = self.speed.orders.iter().take(half).any(|order| *order == Order::default());
         let deviation = if missing { f64::NAN } else { sqrt(variance) / median.abs() };
         let largest = differences.iter().fold(0.0_f64, |most, difference| most.max(1.0 - (own + difference) / median));
         let mut cylinders =

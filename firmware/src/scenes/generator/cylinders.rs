@@ -81,7 +81,7 @@ macro_rules! watched {
                     && let Ok(ripple) = window.ripple(&config.drive.fluctuation, CYLINDERS / 2)
                 {
                     // the rack's torque is that of the gases, friction included
-                    let torque = window.motor_torque(&config.drive.fluctuation, 1).mean;
+                    let torque = f64::from(window.motor_torque(&config.drive.fluctuation, 1).mean);
                     // a tick counts as a tooth: twelve to the turn at least
                     self.found = Some(ripple.cylinders(&ENGINE, torque, BINS));
                     self.windows = self.windows.wrapping_add(1);
