@@ -21,11 +21,10 @@ macro_rules! parts {
                 $bases,
             );
             /// Droop.
-            pub const DROOP: DroopConfig<$number> =
-{
-                    let integral = GOVERNOR.integral * GOVERNOR.period;
-                    DroopConfig::<$number>::new(super::super::DROOP, RATED_SPEED, DIESEL_TORQUE, integral, $bases)
-                };
+            pub const DROOP: DroopConfig<$number> = {
+                let integral = GOVERNOR.integral * GOVERNOR.period;
+                DroopConfig::<$number>::new(super::super::DROOP, RATED_SPEED, DIESEL_TORQUE, integral, $bases)
+            };
             /// Barred speeds.
             pub const BARRED: BarredConfig<$number, 1> =
                 BarredConfig::<$number, 1>::new(&DIESEL.barred, 4.0 * DIESEL.ramp, PERIOD, $bases);

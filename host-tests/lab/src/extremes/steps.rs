@@ -191,7 +191,7 @@ fn exact(place: &Place) -> f64 {
     let mut worst = (double / rounding(place, ticks)).max(single / 1.2e-3);
     if (1e-3..=1e3).contains(&place.inertia_ratio) && place.slowest() > 0.9e-4 {
         let bases = place.bases(&machine);
-        let fixed = TwoMassConfig::<Fixed>::new(&design, bases);
+        let fixed = TwoMassConfig::<Fixed>::new(&design.with_step(StepChoice::Exact), bases);
         let error = place.error::<Fixed, TwoMassObserver<Fixed>>(ticks, &fixed, &bases, Fixed::from_f64);
         let [speeds, shaft_torque] = place.largest(&machine, ticks);
         let coarse = (bases.torque / shaft_torque).max(norm(&machine, [bases.speed, 0.0, bases.speed]) / speeds);
