@@ -53,7 +53,7 @@
 //! };
 //! assert!((ripple.motor.delta - 0.02).abs() < 1e-4);
 //! assert!((ripple.speed.order(2).amplitude() - 1.5).abs() < 0.01);
-//! assert!(ripple.motor.delta > MachineClass::Generator.permissible()[1]);
+//! assert!(f64::from(ripple.motor.delta) > MachineClass::Generator.permissible()[1]);
 //! ```
 //!
 //! # Terms

@@ -50,7 +50,7 @@ impl<N: Number, A: SetpointShape<N>, B: SetpointShape<N>> SetpointShape<N> for (
 /// use driveline::governor::{Droop, DroopConfig, SetpointShape};
 /// use driveline::settings::Bases;
 /// // 4 % of 1500 r/min at a rated torque of 2546 N m: at half of it the set turns at 1470 r/min
-/// const DROOP: DroopConfig<f64> = DroopConfig::<f64>::new(0.04, 157.08, 2546.0, Bases::SI);
+/// const DROOP: DroopConfig<f64> = DroopConfig::<f64>::new(0.04, 157.08, 2546.0, 1.0, Bases::SI);
 /// assert!((Droop.lower(&DROOP, 157.08, 1273.0) * 60.0 / core::f64::consts::TAU - 1470.0).abs() < 0.01);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

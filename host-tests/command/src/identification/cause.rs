@@ -1,6 +1,6 @@
 //! Why two masses do not explain a record: what explains it instead.
 
-use nalgebra::{Complex, Matrix2, Vector2};
+use nalgebra::{Complex, Matrix3, Vector3};
 
 use super::estimate::{Estimate, Setting, three};
 use super::model::Motion;
@@ -90,29 +90,31 @@ fn in_phase(pairs: &[Pair]) -> f64 {
     with / all
 }
 
-/// The rigid machine that comes nearest to the speeds, and the share of them that it leaves.
+/// The rigid machine that comes nearest to the speeds, and the share of them that it leaves. What the speed has gained
+/// over the record stands in every line as one constant.
 fn rigid(pairs: &[Pair]) -> Option<(Rigid, f64)> {
-    let mut found = Vector2::new(1.0, 0.0);
-    let response = |found: &Vector2<f64>, s: &Complex<f64>| (s * found[0] + found[1]).inv();
+    let one = Complex::new(1.0, 0.0);
+    let mut found = Vector3::new(1.0, 0.0, 0.0);
+    let response = |found: &Vector3<f64>, s: &Complex<f64>| (s * found[0] + found[1]).inv();
+    let given = |found: &Vector3<f64>, pair: &Pair| response(found, &pair.s) * (pair.torque - found[2]);
     // errors of the torque, each weighted by the response to it; the speed that the torque would give is the instrument,
     // which has no noise of the measured one
     for _ in 0..8 {
-        let (mut information, mut slope) = (Matrix2::zeros(), Vector2::zeros());
-        for Pair { s, torque, speed } in pairs {
-            let response = response(&found, s);
-            let weight = response.norm_sqr();
-            let given = response * torque * weight;
-            for (row, instrument) in [s * given, given].iter().enumerate() {
-                for (column, other) in [s * speed, *speed].iter().enumerate() {
-                    information[(row, column)] += (instrument.conj() * other).re;
+        let (mut information, mut slope) = (Matrix3::zeros(), Vector3::zeros());
+        for pair in pairs {
+            let Pair { s, torque, speed } = pair;
+            let weight = response(&found, s).norm_sqr();
+            let given = given(&found, pair);
+            for (row, instrument) in [s * given, given, one].iter().enumerate() {
+                for (column, other) in [s * speed, *speed, one].iter().enumerate() {
+                    information[(row, column)] += weight * (instrument.conj() * other).re;
                 }
-                slope[row] += (instrument.conj() * torque).re;
+                slope[row] += weight * (instrument.conj() * torque).re;
             }
         }
         found = information.lu().solve(&slope)?;
     }
-    let left: f64 =
-        pairs.iter().map(|Pair { s, torque, speed }| (speed - torque * response(&found, s)).norm_sqr()).sum();
+    let left: f64 = pairs.iter().map(|pair| (pair.speed - given(&found, pair)).norm_sqr()).sum();
     let all: f64 = pairs.iter().map(|pair| pair.speed.norm_sqr()).sum();
     let rigid = Rigid { inertia: found[0], friction: found[1] };
     (rigid.inertia > 0.0).then(|| (rigid, (left / all).sqrt()))
