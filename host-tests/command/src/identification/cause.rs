@@ -4,21 +4,22 @@ use nalgebra::{Complex, Matrix3, Vector3};
 
 use super::estimate::{Estimate, Setting, three};
 use super::model::Motion;
-use super::refusal::{LEAST, MOST, Refusal};
+use super::refusal::{LEAST, Refusal};
 use super::spectrum::Line;
 
 /// Torque in phase with the acceleration, of their sizes, below which the torque has the other sign. It is one of a free
 /// inertia; friction, a swing or a dead time make it smaller.
 const AGAINST: f64 = -0.1;
 /// Share of the motion that a rigid machine may leave unexplained.
-const RIGID: f64 = 0.4;
+const RIGID: f64 = 0.1;
 /// Share of what two masses leave unexplained that three may leave, to be the machine.
 const LESS: f64 = 0.6;
+/// Largest share of the torque that three masses may leave unexplained.
+const UNEXPLAINED: f64 = 0.4;
+/// Fall of minus twice the logarithm of the likelihood that makes three parameters more significant.
+const LIKELIER: f64 = 3.0 * LEAST;
 /// Power of a line's torque, of the strongest's, below which it says nothing here.
 const FAINT: f64 = 1e-4;
-
-/// An estimate of two masses, its lines and its setting.
-pub type Two<'l> = (&'l Estimate, &'l [Line], Setting);
 
 /// A machine without a shaft.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,41 +30,32 @@ pub struct Rigid {
     pub friction: f64,
 }
 
-/// What the record shows instead of two masses, where that can be told; else why two masses are refused.
+/// What the record shows instead of two masses, where that can be told; else why two masses are refused. `improvement` is
+/// the ratio of variances without the first guess' resonance and with it.
 #[must_use]
-pub fn instead(refusal: Refusal, carriers: &[Line], motion: Motion, two: Option<Two>) -> Refusal {
+pub fn instead(refusal: Refusal, carriers: &[Line], motion: Motion, improvement: f64) -> Refusal {
     let strongest = carriers.iter().map(|line| line.torque.norm_sqr()).fold(0.0, f64::max);
     let clear = carriers.iter().filter(|line| line.torque.norm_sqr() > FAINT * strongest);
     let pairs: Vec<Pair> = clear.map(|line| Pair::of(line, motion)).collect();
     if in_phase(&pairs) < AGAINST {
         return Refusal::Sign;
     }
-    match &refusal {
-        Refusal::Rigid { ratio, .. } => match rigid(&pairs) {
-            Some((rigid, missed)) if missed < RIGID => return Refusal::Rigid { ratio: *ratio, rigid: Some(rigid) },
-            _ => {}
-        },
-        Refusal::Unexplained(_)
-        | Refusal::Growing(_)
-        | Refusal::Overdamped(_)
-        | Refusal::Impossible(_)
-        | Refusal::Driving(..) => {}
-        Refusal::Unrelated if in_phase(&pairs) > 0.0 => {}
-        _ => return refusal,
+    match rigid(&pairs) {
+        Some((rigid, missed)) if improvement < LEAST && missed < RIGID => Refusal::Rigid { ratio: improvement, rigid },
+        _ => refusal,
     }
-    third(two).unwrap_or(Refusal::Contact)
 }
 
 /// A third mass that swings in the band, where three masses leave much less unexplained than two.
 #[must_use]
-pub fn third(two: Option<Two>) -> Option<Refusal> {
-    let (two, lines, setting) = two?;
+pub fn third(lines: &[Line], two: &Estimate, setting: Setting) -> Option<Refusal> {
     let [two, three] = three(lines, two, setting)?;
-    let resonances = three.model.resonances()?;
-    let within = resonances.iter().all(|resonance| (two.band[0]..=two.band[1]).contains(resonance));
-    let likelier = two.unlikely - three.unlikely > LEAST * 3.0 && three.unexplained < LESS * two.unexplained;
-    let is_machine = three.model.third.is_some_and(|third| third.damping > 0.0) && 100.0 * three.unexplained < MOST;
-    (within && likelier && is_machine).then(|| Refusal::Third(Box::new(three.model)))
+    let [low, high] = three.model.resonances()?;
+    let is_machine = three.model.third.is_some_and(|third| third.damping > 0.0);
+    let is_within = two.band[0] <= low && high <= two.band[1];
+    let is_likelier = two.unlikely - three.unlikely > LIKELIER;
+    let is_nearer = three.unexplained < UNEXPLAINED.min(LESS * two.unexplained);
+    (is_machine && is_within && is_likelier && is_nearer).then(|| Refusal::Third(Box::new(three.model)))
 }
 
 /// Torque and speed of a line, at its frequency.

@@ -3,7 +3,7 @@
 use super::cause::{instead, third};
 use super::estimate::{Estimate, Setting, estimate};
 use super::model::{Motion, Torque};
-use super::refusal::{self, LEAST, Refusal};
+use super::refusal::{self, Refusal};
 use super::spectrum::{Line, carriers, guess, lines, smoothed, tabulated};
 use crate::machine_file::Diagnostic;
 use crate::recording::{Quantity, Recording};
@@ -59,8 +59,8 @@ pub fn identify(recording: &Recording, torque_constant: Option<f64>) -> Result<I
     if responses.len() < BANDS {
         return Err(Refusal::NotExcited(carrying.len().min(responses.len())).into());
     }
-    let refused = |refusal, two| instead(refusal, &carrying, motion, two);
-    let (start, fit) = guess(&responses).ok_or_else(|| refused(Refusal::Unrelated, None))?;
+    let unrelated = || instead(Refusal::Unrelated, &carrying, motion, f64::INFINITY);
+    let (start, fit) = guess(&responses).ok_or_else(unrelated)?;
     // below that friction alone acts, above it higher modes
     let between = [lowest.max(start.antiresonance() / 30.0), 5.0 * start.resonance()];
     let lines = carriers(&all, between);
@@ -68,21 +68,17 @@ pub fn identify(recording: &Recording, torque_constant: Option<f64>) -> Result<I
         return Err(Refusal::NotExcited(lines.len()).into());
     }
     let settings = [Torque::Smooth, Torque::Held].map(|torque| Setting { motion, torque, period: recording.period });
-    let (estimate, setting) = estimate(&lines, start, &settings).ok_or_else(|| refused(Refusal::Unrelated, None))?;
+    let (estimate, setting) = estimate(&lines, start, &settings).ok_or_else(unrelated)?;
     judged(Identified { estimate, setting, lines }, &carrying, fit.improvement)
 }
 
-/// What was identified, if it is of use and two masses explain it. Where it is not, and the first guess shows no
-/// resonance, that is the reason; `carriers` are all lines.
+/// What was identified, if it is of use and two masses explain it; `carriers` are all lines that carry torque.
 fn judged(found: Identified, carriers: &[Line], improvement: f64) -> Result<Identified, NotIdentified> {
     let Identified { estimate, setting, lines } = &found;
-    let two = Some((estimate, lines.as_slice(), *setting));
-    let refusal = match refusal::figures(estimate) {
-        Ok(()) => third(two),
-        Err(_) if improvement < LEAST => {
-            Some(instead(Refusal::Rigid { ratio: improvement, rigid: None }, carriers, setting.motion, two))
-        }
-        Err(refusal) => Some(instead(refusal, carriers, setting.motion, two)),
+    let refusal = match refusal::figures(estimate).map_err(|why| instead(why, carriers, setting.motion, improvement)) {
+        Ok(()) => third(lines, estimate, *setting),
+        Err(Refusal::Contact) => third(lines, estimate, *setting).or(Some(Refusal::Contact)),
+        Err(refusal) => Some(refusal),
     };
     refusal.map_or(Ok(found), |refusal| Err(refusal.into()))
 }
@@ -100,8 +96,8 @@ pub fn identify_response(
     let (start, fit) = guess(&tabulated(&lines, motion)).ok_or(Refusal::Unrelated)?;
     let setting = Setting { motion, torque: Torque::Sine, period: 1.0 };
     let (estimate, setting) = estimate(&lines, start, &[setting]).ok_or(Refusal::Unrelated)?;
-    let all = lines.clone();
-    judged(Identified { estimate, setting, lines }, &all, fit.improvement)
+    let carriers = lines.clone();
+    judged(Identified { estimate, setting, lines }, &carriers, fit.improvement)
 }
 
 /// The rows of a table as lines of unit torque, in the order of their frequencies.

@@ -237,23 +237,26 @@ fn what_is_not_two_masses_is_named() {
             let recording = read_recording(&file, &Asked::default()).unwrap();
             match identify(&recording, None) {
                 Err(refusal) if refusal.to_string().contains(words) => {
-                    if let NotIdentified::Refused(Refusal::Rigid { rigid: Some(rigid), .. }) = refusal {
-                        // the record holds its torque from sample to sample and this fit takes it as smooth: some
-                        // hundredths at the highest lines
+                    if let NotIdentified::Refused(Refusal::Rigid { rigid, .. }) = refusal {
+                        // noise of 1 % in both signals
                         assert!(
-                            (rigid.inertia / (motor + load) - 1.0).abs() < 0.05,
+                            (rigid.inertia / (motor + load) - 1.0).abs() < 0.01,
                             "{seed}: {rigid:?}, not {}",
                             motor + load
                         );
                     }
                 }
+                // a second resonance that noise covers: two masses, as right as those of the fifty
+                Ok(found)
+                    if [(found.estimate.model.motor, motor), (found.estimate.model.load, load)]
+                        .iter()
+                        .all(|(found, truth)| (found / truth - 1.0).abs() < 0.03) => {}
                 other => wrong.push(format!("{words}, {seed}: {:?}", other.map(|found| found.estimate.figures))),
             }
         }
     }
-    // noise hides the cause in four of the thirty: a gap is refused as too vague, a slack rope as a rigid machine, and two
-    // third masses that three masses do not explain much better pass as two
-    assert!(wrong.len() <= 4, "{}", wrong.join("\n"));
+    // 95 % of the thirty
+    assert!(wrong.len() <= 1, "{}", wrong.join("\n"));
 }
 
 /// Speed per torque of two masses [derived; headings: Huang 1987 ch. 3 to 7]: inertias 0.02 and 0.05, 800 N m/rad, 0.1
