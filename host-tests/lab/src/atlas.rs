@@ -147,12 +147,19 @@ impl Atlas {
             [Results](results.md) and the counts of `budgets.toml`. **On the front** no other part for the same machine \
             has a smaller error for less.\n\n![Error against microseconds, seven subjects](../atlas.svg)\n\n\
             Microseconds are instructions, counted in QEMU or bounded by the machine code, at the clock that stands \
-            there. They are not measured on silicon. On the M4F an instruction takes 1.58 to 1.80 cycles and on the M3 \
-            1.62 to 2.21, as the intervals of the hoist's images in [Worst case](worst-case.md#as-it-is-called). No \
-            manual prints the cycles of the M33: its time is the least, one cycle an instruction. Flash is that of the \
-            M4F image beyond an empty one.\n\n"
+            there. They are not measured on silicon. "
             .to_owned();
+        let cycles = CORES.iter().filter_map(|(_, name, _, cycles)| Some((name.split(',').next()?, (*cycles)?)));
+        let cycles: Vec<_> =
+            cycles.map(|(core, [least, most])| format!("on the {core} {least:.2} to {most:.2} cycles")).collect();
         // Writing to a `String` cannot fail.
+        let _ = write!(
+            text,
+            "An instruction takes {}, as the intervals of the hoist's images in \
+             [Worst case](worst-case.md#as-it-is-called). No manual prints the cycles of the M33: its time is the \
+             least, one cycle an instruction. Flash is that of the M4F image beyond an empty one.\n\n",
+            cycles.join(", ")
+        );
         for subject in &self.subjects {
             let _ = writeln!(
                 text,
