@@ -25,6 +25,18 @@ pub(super) struct Vibration {
 
 /// A machine as its motor feels it: what a loop's stability depends on. All vibrations are linear; gaps count as
 /// closed.
+///
+/// ```
+#[doc = include_str!("../roll.txt")]
+/// use driveline::design::{Actuator, ClosedLoop, Plant};
+/// // designed for two masses, tested round a machine of three: the coupling's flange has 0.05 kg m2
+/// const CHAIN: Chain = Chain::motor(Inertia(0.35)).shaft(Stiffness(2.0e4), Damping(0.5)).rotor(Inertia(0.05))
+///     .shaft(Stiffness(1.0e6), Damping(0.5)).rotor(Inertia(0.43));
+/// let plant = Plant::of_modes(CHAIN.total_inertia(), &CHAIN.modes());
+/// let speed_loop = ClosedLoop::of(&Roll::OBSERVER, &Roll::SPEED_LOOP, Actuator::DIRECT).unwrap();
+/// assert!(speed_loop.is_stable(&plant, 1.0));
+/// assert!(!speed_loop.is_stable(&plant, 100.0)); // no loop bears any gain
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Plant {
