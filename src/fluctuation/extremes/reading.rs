@@ -53,7 +53,7 @@ impl<R: Real> Fluctuations<R> {
 /// One cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Reading<R = f64> {
+pub struct Reading<R> {
     /// Mean by time (rad/s), of motor and load alike; negative backwards.
     pub mean: R,
     /// The mean less that of the cycle before (rad/s): the part that is not periodic, which a governor mends and a

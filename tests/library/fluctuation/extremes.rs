@@ -25,7 +25,7 @@ fn follow<N: Ranked>(
     bases: Bases,
     cycles: u32,
     number: impl Fn(f64) -> N,
-) -> Reading {
+) -> Reading<f64> {
     let config = CycleConfig::new(cycle, PERIOD, bases);
     let mut extremes = Extremes::<N>::default();
     while extremes.cycles() < cycles {

@@ -139,8 +139,8 @@ impl<R: Real> InDouble for Fluctuations<R> {
 }
 
 impl<R: Real> InDouble for Reading<R> {
-    type Double = Reading;
-    fn in_double(self) -> Reading {
+    type Double = Reading<f64>;
+    fn in_double(self) -> Reading<f64> {
         Reading {
             mean: self.mean.into(),
             change: self.change.map(Into::into),
