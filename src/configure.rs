@@ -36,6 +36,7 @@
 //! | `LoadSharing` | [`HasLoadSharing::SHARING`] | [`HasLoadSharing`] |
 //! | `MovingAverage`, `CycleAverage` | none | |
 //! | `Extremes`, `Waveform`, `Interleaved`, `CycleMean` | [`Machine::CYCLE`], [`Machine::CYCLES`] | |
+//! | `GearMesh` | [`HasGearMesh::MESH`], [`HasGearMesh::TEETH`] | [`HasGearMesh`] |
 //! | `Rainflow` | [`HasLife::CLASSED_TORQUE`] | [`HasLife`] |
 //! | `Phasors` | [`HasVibration::PHASORS`] | [`HasVibration`] |
 //!
@@ -122,6 +123,7 @@ mod units;
 mod vibration;
 
 pub use family::{Family, HasLoadAndRope, ScheduleOf, Scheduled};
+pub use fluctuation::HasGearMesh;
 pub use gain_source::GainSource;
 pub use governor::{
     HasActuator, HasBacklash, HasBarredSpeeds, HasDroop, HasInputShaper, HasLoadSharing, HasSequencer, HasSlew,

@@ -9,6 +9,7 @@
 //! | [`Extremes`] | compares the observer's speeds | every cycle: mean, extremes and delta of both speeds |
 //! | [`Waveform`] | counts itself in the bin of its angle | every few cycles: waveform, orders, delta, energy |
 //! | [`CycleMean`] | work at the ends of segments only | several times a cycle: the speed without its ripple |
+//! | [`GearMesh`] | one order of the motor's angle | a gear's mesh and its sidebands, one after the other |
 //! | a pair of any | both | both |
 //! | [`Interleaved`] | the waveform's and the extremes' work by turns | both, at less than the cost of the pair |
 //!
@@ -67,6 +68,7 @@ mod cylinders;
 mod deviation;
 mod extremes;
 mod flywheel;
+mod gear_mesh;
 mod interleaved;
 mod load_side;
 mod position;
@@ -81,6 +83,7 @@ pub use cycle_mean::{CycleMean, CycleMeanConfig};
 pub use cylinders::{Coupling, Cylinder, CylinderVerdict, Engine};
 pub use extremes::{Extreme, Extremes, Fluctuations, Ranked, Reading, SpeedErrors};
 pub use flywheel::{Balance, Flywheel, MachineClass, Remedy};
+pub use gear_mesh::{GearMesh, GearMeshConfig, GearMeshError, MeshReading, Sideband};
 pub use interleaved::Interleaved;
 pub use load_side::{Drivetrain, LoadSide};
 pub use position::{CycleConfig, Edge};

@@ -28,6 +28,7 @@ parts! {
     [const CLASSES: usize] Rainflow<CLASSES>, Rainflow<CLASSES, N>;
     [const SEGMENTS: usize] CycleMean<SEGMENTS>, CycleMean<SEGMENTS, N>;
     [] Extremes, Extremes<N>, Ranked;
+    [const LINES: usize, const EDGES: usize] GearMesh<LINES, EDGES>, GearMesh<LINES, EDGES>;
     [const BINS: usize] Interleaved<BINS>, Interleaved<BINS, N>, Summed, Ranked;
     [const BINS: usize] Waveform<BINS>, Waveform<BINS, N>, Summed;
     [] SymmetricLimit, SymmetricLimit;

@@ -218,10 +218,13 @@ macro_rules! governors {
             [] Machine, SpeedLag => LagConfig<$number>,
                 LagConfig::<$number>::new(M::SPEED_LOOP.speed_lag, M::PERIOD, $bases);
             [] HasDroop, Droop => DroopConfig<$number>,
-                {
-                let rating = M::RATING;
-                DroopConfig::<$number>::new(M::DROOP, rating.speed.0, rating.torque.0, M::GAINS.integral(), $bases)
-            };
+                DroopConfig::<$number>::new(
+                    M::DROOP,
+                    M::RATING.speed.0,
+                    M::RATING.torque.0,
+                    M::GAINS.integral(),
+                    $bases,
+                );
             [K] HasBarredSpeeds<K>, Barred<K> => BarredConfig<$number, K>,
                 BarredConfig::<$number, K>::new(&M::BARRED, M::QUICK_RAMP, M::PERIOD, $bases);
             [] Machine, FeedForward => FeedForwardConfig<$number>,

@@ -6,6 +6,7 @@ mod cylinders;
 mod deviation;
 mod extremes;
 mod flywheel;
+mod gear_mesh;
 mod motion;
 mod numerics;
 mod press;
