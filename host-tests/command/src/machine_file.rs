@@ -153,6 +153,8 @@ pub struct MachineFile {
     pub actuator: Actuator,
     /// Natural frequency of the speed loop over the antiresonance.
     pub bandwidth: f64,
+    /// Acceleration of the speed's setpoint (rad/s2); `None` for that of the rating.
+    pub ramp: Option<f64>,
     /// Its class, which tolerances that the file does not state come from.
     pub class: Class,
     #[serde(skip)]

@@ -64,7 +64,7 @@ impl FileCase {
         if end > LONGEST {
             let settling = 5.0 / designs.speed_loop.bandwidth;
             let remedies = [
-                (ramp, "raise `limits.torque` or lower `limits.speed`"),
+                (ramp, "raise `limits.torque` or `speed_loop.ramp`, or lower `limits.speed`"),
                 (settling, "stiffen the softest shaft or raise `speed_loop.bandwidth`"),
                 (cycle.every, "shorten `duty.every`"),
             ];

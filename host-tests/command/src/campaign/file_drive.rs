@@ -122,7 +122,7 @@ macro_rules! number {
             let rating = self.machine.rating();
             // in the words of a project, whose sum may differ in the last digit
             let is_chain = self.machine.dampers.is_empty() && self.machine.train.is_none();
-            let ramp = if is_chain { rating.ramp(self.machine.chain.total_inertia()) } else { *ramp };
+            let ramp = if is_chain { self.machine.ramp(self.machine.chain.total_inertia()) } else { *ramp };
             let settings = SpeedLoopSettings { torque_limit: rating.torque_limit.0, ramp };
             let of = (
                 Limits::<$number>::try_new(&rating.screening(encoder, rate), bases)?,

@@ -181,7 +181,7 @@ impl Designs {
         let two_masses = two.try_observer(rate, encoder, disturbance)?;
         let rigid = machine.rigid()?.try_observer(rate, encoder, disturbance)?;
         let speed_loop = two.try_speed_loop(rate, machine.speed_loop_tuning(two))?;
-        let ramp = machine.rating().ramp(two.total_inertia());
+        let ramp = machine.ramp(two.total_inertia());
         let (drawn, tolerance) = (machine.drawn_encoder(), machine.tolerance());
         let operation = machine.operation(two, ramp);
         let errors = |observer| two.predicted_errors(observer, drawn, &tolerance, &operation);
@@ -319,6 +319,11 @@ impl MachineFile {
         self.encoder_of(rms(Factor::Interpolation), rms(Factor::Eccentricity), rms(Factor::Jitter))
     }
 
+    /// Acceleration of the speed's setpoint (rad/s2), with this inertia at the motor: that of the file, or of the rating.
+    pub fn ramp(&self, inertia: f64) -> f64 {
+        self.ramp.unwrap_or_else(|| self.rating().ramp(inertia))
+    }
+
     /// The speed loop's tuning: [`SpeedLoopTuning::with_bandwidth`].
     fn speed_loop_tuning(&self, two: &TwoMass) -> SpeedLoopTuning {
         SpeedLoopTuning::with_bandwidth(two, self.bandwidth)
@@ -377,7 +382,7 @@ impl MachineFile {
         machine.disturbance.torque_noise = machine.disturbance.torque_noise.map(|noise| noise * share);
         let (rate, encoder, disturbance) = machine.tuning();
         let (drawn, tolerance) = (machine.drawn_encoder(), machine.tolerance());
-        let operation = machine.operation(two, machine.rating().ramp(two.total_inertia()));
+        let operation = machine.operation(two, machine.ramp(two.total_inertia()));
         let predicted = |observer: LoopObserver<'_>| {
             let speed_loop = two.try_speed_loop(rate, machine.speed_loop_tuning(two))?;
             let error = two.predicted_errors(observer, drawn, &tolerance, &operation).total();

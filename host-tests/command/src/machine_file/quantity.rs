@@ -80,6 +80,8 @@ impl Quantity {
     pub const RATE: Self = Quantity { least: 1.0, most: 10_000_000.0, whole: true, ..positive("Hz") };
     pub const TORQUE: Self = positive("N m");
     pub const SPEED: Self = positive("rad/s");
+    /// Acceleration of the speed's setpoint.
+    pub const RAMP: Self = positive("rad/s²");
     /// Resistance of a motor's circuit.
     pub const RESISTANCE: Self = positive("ohm");
     /// Torque over current (V s), or over its square (H).

@@ -166,13 +166,14 @@ fn parse_up_to(name: &str, text: &str, most: usize, for_drive: bool) -> Result<M
         }
         None => Actuator::default(),
     };
-    let bandwidth = match root.table_if("speed_loop")? {
+    let (bandwidth, ramp) = match root.table_if("speed_loop")? {
         Some(mut table) => {
             let bandwidth = table.number_or("bandwidth", Quantity::BANDWIDTH, SpeedLoopTuning::USUAL.bandwidth)?;
+            let ramp = table.number_if("ramp", Quantity::RAMP)?;
             table.finish()?;
-            bandwidth
+            (bandwidth, ramp)
         }
-        None => SpeedLoopTuning::USUAL.bandwidth,
+        None => (SpeedLoopTuning::USUAL.bandwidth, None),
     };
     let lossy = chain.efficiency() < 1.0 || chain.back_efficiency() < 1.0;
     let gap = chain.shafts().iter().any(|shaft| shaft.gap > 0.0);
@@ -209,6 +210,7 @@ fn parse_up_to(name: &str, text: &str, most: usize, for_drive: bool) -> Result<M
         limits,
         actuator,
         bandwidth,
+        ramp,
         class,
         tolerances,
         running,

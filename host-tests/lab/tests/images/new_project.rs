@@ -40,7 +40,7 @@ fn a_project_runs_in_qemu_on_each_board_and_passes_its_test() {
     let place = tempfile::tempdir().unwrap();
     let damped = place.path().join("damped.toml");
     let dampers = "[[damper]]\nat = \"coupling\"\nkind = \"tuned\"\ninertia = 15.0\n[[damper]]\nat = \"coupling\"\n\
-                   kind = \"friction\"\ninertia = 10.0\nexcitation = 1.0e3\n[speed_loop]\nbandwidth = 0.3\n";
+                   kind = \"friction\"\ninertia = 10.0\nexcitation = 1.0e3\n[speed_loop]\nbandwidth = 0.3\nramp = 5.0\n";
     std::fs::write(&damped, format!("{}\n{dampers}", std::fs::read_to_string(MILL).unwrap())).unwrap();
     for (name, machine, speed, board, parts) in [
         ("crane-m4f", HOIST, 155.0, "qemu-m4f", &[][..]),

@@ -67,6 +67,7 @@ pub struct Project {
     load_torque_step: String,
     within: String,
     /// Where the file names a bandwidth.
+    ramp: Option<String>,
     tuning: Option<String>,
     /// Delay and lag (s), where the file has some.
     actuator: Option<[String; 2]>,
@@ -195,8 +196,8 @@ impl Project {
             plan.as_ref().ok().and_then(|plan| plan.speed_loop.as_ref()).map(|speed_loop| speed_loop.bandwidth);
         // ten time constants of the speed loop
         let settling = (10.0 / bandwidth.unwrap_or(10.0)).max(1.0);
-        let seconds = 2.0 * machine.limits.speed / machine.limits.torque * machine.chain.total_inertia();
-        let loaded = 2 + (seconds.max(2.0) + settling) as u32;
+        let seconds = machine.limits.speed / machine.ramp(machine.chain.total_inertia());
+        let loaded = 2 + (seconds + settling) as u32;
         let (actuator, tolerance) = (machine.actuator(), tolerance(machine));
         let period = 1.0 / f64::from(machine.control.rate_hz);
         Ok(Project {
@@ -219,6 +220,7 @@ impl Project {
             torque_accuracy: float(machine.disturbance.torque_accuracy),
             load_torque_step: float(machine.disturbance.load_torque_step),
             within: float(machine.disturbance.within),
+            ramp: machine.ramp.map(float),
             tuning: has_tuning(machine).then(|| tuning(machine, "&Self::TWO_MASS")),
             actuator: (actuator != Actuator::DIRECT).then(|| [actuator.delay, actuator.lag].map(float)),
             designs: designs(machine, &tolerance, rigid).join(", "),
@@ -257,7 +259,6 @@ impl Project {
                 before: [1.0 / before[0] - 1.0, 1.0 - before[1]].map(float),
                 behind: [1.0 - behind[0], if behind[1] > 0.0 { 1.0 / behind[1] - 1.0 } else { LOCKED }].map(float),
                 steps: 1 + (40.0 / TAU * period * two.resonance()) as u32,
-                // the ramp takes two seconds, or half of the largest torque (`Rating::ramp`)
                 seconds: loaded,
                 end: loaded + 2 + (2.0 * settling).ceil() as u32,
             },
