@@ -88,10 +88,10 @@ fn lines_are_right_to_a_tenth() {
 #[test]
 fn five_hundred_teeth_are_read() {
     let config = GearMeshConfig::<1>::new(500, &[Sideband::MESH], 40);
-    let [reading] = read(&config, 1.0 / 4_511.3719, &[(500.0, 40e-6, 0.0)]);
+    let [reading] = read(&config, 1.0 / 4_511.371_9, &[(500.0, 40e-6, 0.0)]);
     // 0.29 counts of 0.77 mrad over the root of half of 1,440,000 ticks: 0.3 urad
     assert!((reading.unwrap().phasor.amplitude() - 40e-6).abs() < 4e-6, "{reading:?}");
-    let [reading] = read(&config, 1.0 / 3_900.3719, &[(500.0, 40e-6, 0.0)]);
+    let [reading] = read(&config, 1.0 / 3_900.371_9, &[(500.0, 40e-6, 0.0)]);
     assert_eq!(reading, Err(ReadingFault::TooFast));
 }
 
