@@ -303,6 +303,16 @@ impl Motion {
         self.mode.gather(&self.train);
     }
 
+    /// Lets the closed contacts trail whose dampers would make them pull.
+    pub(super) fn trail(&mut self) {
+        let now = Stretch::now(&self.train, &self.mode, &self.state, &self.held, self.now, self.longest(1.0));
+        for (l, link) in self.train.links.iter().enumerate().filter(|(_, link)| !link.is_linear()) {
+            let side = self.mode.contact[l].signum();
+            let pulls = now.strain[l].value[0] * f64::from(side) < 0.0 && link.damping > 0.0;
+            self.mode.contact[l] = if pulls { side * TRAILING } else { side };
+        }
+    }
+
     /// The mode that belongs to the state at the start.
     pub(super) fn settle(&mut self) {
         for s in 0..self.train.frictions.len() {
@@ -312,14 +322,11 @@ impl Motion {
             self.mode.slip[s] = if over > 0.0 { 1 } else { -i8::from(over < 0.0) };
         }
         self.mode.gather(&self.train);
+        self.trail();
         let stretch = self.stretch(self.longest(f64::MAX));
         for l in 0..self.train.links.len() {
-            let link = &self.train.links[l];
-            let (force, contact) = (stretch.strain[l].value[0], self.mode.contact[l]);
-            self.mode.flow[l] = if force * link.terms[0].1 < 0.0 { -1 } else { 1 };
-            if !link.is_linear() && force * f64::from(contact) < 0.0 {
-                self.mode.contact[l] = contact * TRAILING;
-            }
+            let force = stretch.strain[l].value[0];
+            self.mode.flow[l] = if force * self.train.links[l].terms[0].1 < 0.0 { -1 } else { 1 };
         }
         self.face_gears();
         for s in 0..self.train.frictions.len() {

@@ -118,7 +118,7 @@ impl Motion {
         let rate = fastest(&train);
         let leap = Leap::of(&train);
         let links = train.links.iter().map(|link| (link.stiffness, link.damping));
-        Self {
+        let mut motion = Self {
             computed: (rate, links.collect()),
             rate,
             held: vec![0.0; train.coordinates.len()],
@@ -134,7 +134,9 @@ impl Motion {
             fired: 0,
             leap,
             refused: 0,
-        }
+        };
+        motion.trail();
+        motion
     }
 
     /// Holds this torque (N m or N) on a coordinate from now on, beside its sources. One that is not finite, or on a
