@@ -28,10 +28,12 @@ pub use load_and_rope::{LoadAndRope, LoadAndRopeState, Scheduling};
 use core::marker::PhantomData;
 
 use crate::configure::{Configure, Machine, Units};
-use crate::drive::{Composition, ConfigOf};
+use crate::drive::{Composition, ConfigOf, Drive};
 use crate::fault::Faults;
-use crate::learning::Learnt;
+use crate::governor::{SetpointLag, SpeedLoop};
+use crate::learning::{EccentricityObserver, Learnt};
 use crate::number::{Part, StateOf};
+use crate::observer::{GearedObserver, SemiImplicitObserver};
 use crate::sample::Command;
 
 /// What is known of load and rope at this time, beyond what the drive finds.
@@ -86,25 +88,19 @@ pub struct AdaptiveConfig<C, S, M> {
 ///
 /// ```
 /// use driveline::prelude::*;
-/// use driveline::learning::EccentricityObserver;
-/// use driveline::observer::{GearedObserver, SemiImplicitObserver};
 ///
 /// struct Crane;
 /// impl Machine for Crane {
 ///     const CHAIN: Chain = Chain::motor(Inertia(0.3)).shaft(Stiffness(2.0e4), Damping(1.0)).rotor(Inertia(0.05))
-///         .gear(Ratio(20.0), Efficiency(0.95)).drum(Diameter(0.5)).rope(Falls(2), Stiffness(1.2e6)).lifted(Mass(5e3));
+///         .gear(Ratio(20.0), Efficiency(0.95)).drum(Diameter(0.5)).rope(Falls(2), Stiffness(1.2e6))
+///         .lengths(Length(4.0), Length(10.0), Length(16.0)).lifted(Mass(5e3)).loads(Mass(500.0), Mass(5_500.0));
 ///     const RATING: Rating = Rating { torque: Torque(300.0), speed: Speed::rpm(1480.0), torque_limit: Torque(600.0) };
 ///     const ENCODER: Encoder = Encoder::lines(1024);
 ///     const RATE_HZ: u32 = 10_000;
 ///     const DISTURBANCE: Disturbance = Self::RATING.hoisting(Self::RATE);
 /// }
-/// impl HasLoadAndRope<3, 2> for Crane {
-///     const LOAD: [Mass; 2] = [Mass(500.0), Mass(5_500.0)];
-///     const ROPE: [Length; 2] = [Length(4.0), Length(16.0)];
-///     const ROPE_OF_CHAIN: Length = Length(10.0);
-/// }
-/// type Inner = Drive<f32, EccentricityObserver<GearedObserver<SemiImplicitObserver>>, SpeedLoop>;
-/// type CraneDrive = Adaptive<Crane, Inner, LoadAndRope<3, 2>, Learners>;
+/// impl HasLoadAndRope<3, 2> for Crane {}
+/// type CraneDrive = HoistDrive<Crane, f32, 3, 2>;
 /// static CONFIG: ConfigOf<CraneDrive> = CraneDrive::configure();
 ///
 /// let mut drive = CraneDrive::new(&CONFIG, 0);
@@ -135,6 +131,15 @@ pub struct Adaptive<M, D: Composition, S: Part<D::Number> = (), L: Part<D::Numbe
     schedule: StateOf<S, D::Number>,
     machine: PhantomData<fn() -> M>,
 }
+
+/// The drive of the hoist `M` in the number `N`, which follows load and rope over `LOADS` loads and `ROPES` lengths, and
+/// learns its machine. The ramp's setpoint lags by the loop's own time constant, so that a ramp leaves less of a swing.
+pub type HoistDrive<M, N, const LOADS: usize, const ROPES: usize> = Adaptive<
+    M,
+    Drive<N, EccentricityObserver<GearedObserver<SemiImplicitObserver>>, SpeedLoop<SetpointLag>>,
+    LoadAndRope<LOADS, ROPES>,
+    Learners,
+>;
 
 /// In the upper half of the count of ticks: the brake held, or the axis was tripped. The faults of the ticks lie below
 /// it.

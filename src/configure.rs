@@ -24,14 +24,14 @@
 //! | `SymmetricLimit`, `TorqueRange` | torque limit, [`Machine::LEAST_TORQUE`] | |
 //! | `Curve` | [`HasTorqueCurve::CURVE`], [`Machine::LEAST_TORQUE`] | [`HasTorqueCurve`] |
 //! | `Slew` | [`HasSlew::SLEW`], those of its limit | [`HasSlew`] |
-//! | `BacklashTakeUp` | [`HasBacklash::TAKE_UP`], those of its limit | [`HasBacklash`] |
-//! | `InputShaper` | [`HasInputShaper::SHAPER`], [`Machine::RAMP`], those of its governor | [`HasInputShaper`] |
+//! | `BacklashTakeUp` | [`Machine::TAKE_UP`], those of its limit | |
+//! | `InputShaper` | [`Machine::SHAPER`], [`Machine::RAMP`], those of its governor | |
 //! | `Supervised` | [`Machine::SUPERVISION`], those of its governor | |
-//! | `Droop` | [`HasDroop::DROOP`] | [`HasDroop`] |
+//! | `Droop` | [`Machine::DROOP`] | |
 //! | `Barred` | [`HasBarredSpeeds::BARRED`] | [`HasBarredSpeeds`] |
 //! | `FeedForward`, `AccelerationFeedback` | [`Machine::GAINS`] | [`GainSource::Governor`] |
 //! | `ActiveDamping` | [`Machine::SPEED_LOOP`] | |
-//! | `Sequencer` | [`HasSequencer::SEQUENCER`] | [`HasSequencer`] |
+//! | `Sequencer` | [`Machine::SEQUENCER`] | |
 //! | `Actuated` | [`HasActuator::LAGS`], [`HasActuator::MONITOR`], [`HasActuator::TORQUE_DELAY`] | [`HasActuator`] |
 //! | `LoadSharing` | [`HasLoadSharing::SHARING`] | [`HasLoadSharing`] |
 //! | `MovingAverage`, `CycleAverage` | none | |
@@ -125,10 +125,7 @@ mod vibration;
 pub use family::{Family, HasLoadAndRope, ScheduleOf, Scheduled};
 pub use fluctuation::HasGearMesh;
 pub use gain_source::GainSource;
-pub use governor::{
-    HasActuator, HasBacklash, HasBarredSpeeds, HasDroop, HasInputShaper, HasLoadSharing, HasSequencer, HasSlew,
-    HasTorqueCurve,
-};
+pub use governor::{HasActuator, HasBarredSpeeds, HasLoadSharing, HasSlew, HasTorqueCurve};
 pub use life::HasLife;
 pub use loop_part::LoopPart;
 pub use machine::{Machine, Rating};

@@ -62,6 +62,16 @@ use crate::fault::Faults;
 use crate::number::Number;
 use crate::sample::Estimate;
 
+/// The governor of an engine: droop, feed-forward of the load, a torque curve of `POINTS` points, run sequence, and a
+/// moving average of the speed over `FIRING` ticks, the interval between two firings.
+pub type EngineGovernor<const POINTS: usize, const FIRING: usize> =
+    SpeedGovernor<Droop, FeedForward, Curve<POINTS>, Sequencer, MovingAverage<FIRING>>;
+
+/// A speed governor that takes up backlash or a slack rope gently, with [`Machine::TAKE_UP`].
+///
+/// [`Machine::TAKE_UP`]: crate::configure::Machine::TAKE_UP
+pub type TakeUpGovernor = SpeedGovernor<(), (), BacklashTakeUp<SymmetricLimit>>;
+
 /// A controller of the motor's torque, advanced once a tick.
 ///
 /// ```

@@ -116,7 +116,8 @@ where
     const OBSERVER: PlacedObserver = M::OBSERVERS[I / 4][K / 2];
 
     fn start(angle: u32) -> Self {
-        let [travel, load, rope] = const { [Constants::<M, I, K>::TRAVEL, M::CHAIN.lifted_mass(), M::ROPE_OF_CHAIN.0] };
+        let (travel, load) = const { (Constants::<M, I, K>::TRAVEL, M::CHAIN.lifted_mass()) };
+        let rope = const { M::CHAIN.lengths_of_rope()[1] };
         LoadAndRopeState {
             mass: LoadMass::new(const { &Constants::<M, I, K>::MASS }, load as f32),
             rope: RopeLength::new(travel as f32, rope as f32, angle),

@@ -121,8 +121,9 @@ pub trait Family<const A: usize, const B: usize>: Machine {
 
 /// A hoist: a machine whose load and rope change. It is a [`Family`] by the inverse of both.
 ///
-/// [`Machine::CHAIN`] ends in a rope and a lifted mass; the other members are
-/// [`Chain::hoisting`](crate::machine::Chain::hoisting).
+/// [`Machine::CHAIN`] ends in a rope and a lifted mass, and gives the range of both by
+/// [`Chain::lengths`](crate::machine::Chain::lengths) and [`Chain::loads`](crate::machine::Chain::loads); the other
+/// members are [`Chain::hoisting`](crate::machine::Chain::hoisting).
 ///
 /// ```
 /// use driveline::configure::HasLoadAndRope;
@@ -130,30 +131,24 @@ pub trait Family<const A: usize, const B: usize>: Machine {
 /// struct Crane;
 /// impl Machine for Crane {
 ///     const CHAIN: Chain = Chain::motor(Inertia(0.35)).gear(Ratio(20.0), Efficiency(0.95)).drum(Diameter(0.5))
-///         .rope(Falls(2), Stiffness(1.2e6)).lifted(Mass(5e3));
+///         .rope(Falls(2), Stiffness(1.2e6)).lengths(Length(4.0), Length(10.0), Length(16.0))
+///         .lifted(Mass(5e3)).loads(Mass(500.0), Mass(8_000.0));
 ///     const RATING: Rating = Rating { torque: Torque(300.0), speed: Speed::rpm(1480.0), torque_limit: Torque(600.0) };
 ///     const ENCODER: Encoder = Encoder::lines(1024);
 ///     const RATE_HZ: u32 = 10_000;
 /// }
-/// impl HasLoadAndRope<3, 2> for Crane {
-///     const LOAD: [Mass; 2] = [Mass(500.0), Mass(8_000.0)];
-///     const ROPE: [Length; 2] = [Length(4.0), Length(16.0)];
-///     const ROPE_OF_CHAIN: Length = Length(10.0);
-/// }
+/// impl HasLoadAndRope<3, 2> for Crane {}
 /// assert!((Crane::LOADS[1] - 2_000.0).abs() < 1e-9); // in equal ratios: sqrt(500 * 8000)
 /// ```
 #[doc(alias("crane", "hoist", "gain scheduling"))]
 pub trait HasLoadAndRope<const A: usize, const B: usize>: Machine {
-    /// The least and the largest load, such as the empty hook and a tenth over the largest.
-    const LOAD: [Mass; 2];
-    /// The shortest and the longest rope.
-    const ROPE: [Length; 2];
-    /// Length of the rope whose stiffness is that in [`Machine::CHAIN`].
-    const ROPE_OF_CHAIN: Length;
     /// Loads at the points (kg), falling: in equal ratios.
-    const LOADS: [f64; A] = falling(Self::LOAD[0].0, Self::LOAD[1].0);
+    const LOADS: [f64; A] = falling(Self::CHAIN.least_and_largest_load());
     /// Lengths at the points (m), falling: in equal ratios.
-    const ROPES: [f64; B] = falling(Self::ROPE[0].0, Self::ROPE[1].0);
+    const ROPES: [f64; B] = {
+        let [shortest, _, longest] = Self::CHAIN.lengths_of_rope();
+        falling([shortest, longest])
+    };
     /// As [`Family::SCHEDULED_DISTURBANCE`]: [`Rating::hoisting_on_schedule`](super::Rating::hoisting_on_schedule).
     const HOISTING_DISTURBANCE: Disturbance = Self::RATING.hoisting_on_schedule(Self::RATE);
     /// As [`Family::DAMPING`]: a quarter. Three hoists of 5 to 12 t have their margins up to 0.29 to 0.98.
@@ -170,7 +165,7 @@ impl<M: HasLoadAndRope<A, B>, const A: usize, const B: usize> Family<A, B> for M
         each!(i, 0..A, {
             each!(j, 0..B, {
                 let (load, rope) = (Mass(Self::LOADS[i]), Length(Self::ROPES[j]));
-                let chain = Self::CHAIN.hoisting(load, rope, Self::ROPE_OF_CHAIN);
+                let chain = Self::CHAIN.hoisting(load, rope);
                 members[i][j] = chain.reduce(Match::ResonanceAntiresonance);
             });
         });
@@ -188,10 +183,12 @@ const fn inverse<const K: usize>(values: [f64; K], over: f64) -> [f64; K] {
 }
 
 /// Values in equal ratios from the largest to the least.
-const fn falling<const K: usize>(least: f64, most: f64) -> [f64; K] {
+const fn falling<const K: usize>([least, most]: [f64; 2]) -> [f64; K] {
     assert!(
         K >= 2 && least > 0.0 && most > least && most.is_finite(),
-        "loads and ropes of a gain schedule lie between two values that rise from above zero, at two points or more"
+        "CHAIN: a gain schedule over load and rope has two points or more of each between two values that rise: give \
+            `.lengths(Length(5.0), Length(12.0), Length(30.0))` behind the rope and `.loads(Mass(500.0), Mass(13e3))` \
+            behind the load"
     );
     let ratio = exp(ln(least / most) / (K - 1) as f64);
     let mut values = [most; K];

@@ -1,6 +1,7 @@
 //! Source of a governor's gains.
 
-use crate::design::{GovernorDesign, SpeedLoopDesign};
+use super::Machine;
+use crate::design::{GovernorDesign, LoadFeedForward, SpeedLoopDesign};
 
 /// Source of the gains of [`SpeedGovernor`](crate::governor::SpeedGovernor).
 ///
@@ -21,6 +22,16 @@ pub enum GainSource {
 }
 
 impl GainSource {
+    /// Those of [`TwoMass::governor`](crate::machine::TwoMass::governor) for the machine `M`, with its two masses, its
+    /// rate and its actuator. `optimum_factor` is a of the symmetrical optimum, from 2 (fast) to 4 (well damped).
+    ///
+    /// # Panics
+    /// At compile time in a constant, for a value out of range or an unstable loop.
+    #[must_use]
+    pub const fn governor<M: Machine>(optimum_factor: f64, forward: LoadFeedForward) -> Self {
+        GainSource::Governor(M::TWO_MASS.governor(M::RATE, M::ACTUATOR, optimum_factor, forward))
+    }
+
     /// The proportional gain (N m s/rad).
     pub(super) const fn proportional(&self) -> f64 {
         match self {
@@ -37,7 +48,7 @@ impl GainSource {
         }
     }
 
-    pub(super) const fn governor(&self) -> &GovernorDesign {
+    pub(super) const fn design(&self) -> &GovernorDesign {
         match self {
             GainSource::Governor(design) => design,
             GainSource::SpeedLoop(_) => panic!(

@@ -1,10 +1,7 @@
 //! Governors and their parts for a machine.
 
 use super::{Configure, GainSource, LoopPart, Machine};
-use crate::design::{
-    Averaging, BacklashTakeUpDesign, BacklashTakeUpTuning, BarredSpeeds, InputShaperDesign, SpeedLoopDesign,
-    TorqueCurve,
-};
+use crate::design::{Averaging, BarredSpeeds, SpeedLoopDesign, TorqueCurve};
 use crate::governor::{
     AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, ActuatorMonitor,
     ActuatorMonitorConfig, BacklashTakeUp, BacklashTakeUpConfig, Barred, BarredConfig, Curve, CurveConfig,
@@ -15,45 +12,7 @@ use crate::governor::{
     SymmetricLimitConfig, TorqueRange, TorqueRangeConfig,
 };
 use crate::number::{Fixed, Number, Part};
-use crate::settings::{ActuatorMonitorSettings, Bases, LoadSharingSettings, SequencerSettings, SpeedLoopSettings};
-
-/// A machine with backlash take-up, or with a slack rope.
-///
-/// ```
-#[doc = include_str!("../roll.txt")]
-/// use driveline::configure::HasBacklash;
-/// use driveline::design::BacklashTakeUpTuning;
-/// impl HasBacklash for Roll {
-///     const TAKING_UP: BacklashTakeUpTuning = BacklashTakeUpTuning {
-///         impact: 100.0, torque: 50.0, rise: 200.0, fall: 400.0, max_torque: 550.0, damping: 0.05,
-///     };
-/// }
-/// // the twist rate that an impact of 100 N m allows: over sqrt(k J_m J_l/(J_m + J_l))
-/// let impedance = (2.0e4_f64 * 0.35 * 0.48 / 0.83).sqrt();
-/// assert!((Roll::TAKE_UP.approach_speed - 100.0 / impedance).abs() < 1e-9);
-/// ```
-pub trait HasBacklash: Machine {
-    /// Tuning of the take-up.
-    const TAKING_UP: BacklashTakeUpTuning;
-    /// The taking up, from the two masses, rate and tuning.
-    const TAKE_UP: BacklashTakeUpDesign = Self::TWO_MASS.take_up(Self::RATE, Self::TAKING_UP);
-}
-
-/// A machine whose setpoint yields to the load.
-///
-/// ```
-#[doc = include_str!("../generator_set.txt")]
-/// impl HasDroop for Set {
-///     const DROOP: f64 = 0.04;
-/// }
-/// // 4 % of 157.08 rad/s at 2546 N m
-/// const CONFIG: DroopConfig<f64> = <Droop as Configure<Set, f64>>::CONFIG;
-/// assert!((CONFIG.droop - 0.04 * 157.08 / 2546.0).abs() < 1e-8);
-/// ```
-pub trait HasDroop: Machine {
-    /// Fraction of the rated speed, at rated torque.
-    const DROOP: f64;
-}
+use crate::settings::{ActuatorMonitorSettings, Bases, LoadSharingSettings, SpeedLoopSettings};
 
 /// A machine with speeds that it must not dwell at.
 pub trait HasBarredSpeeds<const K: usize>: Machine {
@@ -69,14 +28,17 @@ pub trait HasBarredSpeeds<const K: usize>: Machine {
 /// ```
 #[doc = include_str!("../generator_set.txt")]
 /// impl HasTorqueCurve<3> for Set {
-///     const CURVE: TorqueCurve<3> = TorqueCurve::through([[0.0, 264.0], [62.8, 1910.0], [125.7, 2838.0]]);
+///     const POINTS: [[f64; 2]; 3] = [[0.0, 264.0], [62.8, 1910.0], [125.7, 2838.0]];
 /// }
 /// const CONFIG: CurveConfig<f64, 3> = <Curve<3> as Configure<Set, f64>>::CONFIG;
 /// assert!((CONFIG.max_torque(62.8) - 1910.0).abs() < 1e-9);
 /// ```
 pub trait HasTorqueCurve<const K: usize>: Machine {
-    /// Largest torque against speed.
-    const CURVE: TorqueCurve<K>;
+    /// Points of the largest torque: speed (rad/s), torque (N m), by rising speed. To give a curve that is made
+    /// otherwise, name [`CURVE`](Self::CURVE).
+    const POINTS: [[f64; 2]; K] = [[f64::NAN; 2]; K];
+    /// Largest torque against speed: [`TorqueCurve::through`] the points.
+    const CURVE: TorqueCurve<K> = TorqueCurve::through(Self::POINTS);
 }
 
 /// A machine that several motors turn.
@@ -89,29 +51,6 @@ pub trait HasLoadSharing: Machine {
 pub trait HasSlew: Machine {
     /// Torque per time (N m/s).
     const SLEW: f64;
-}
-
-/// A machine whose load swings, with a setpoint that does not excite it.
-pub trait HasInputShaper: Machine {
-    /// The shaper: for the vibration that the speed loop is designed to leave.
-    const SHAPER: InputShaperDesign =
-        InputShaperDesign::new(Self::SPEED_LOOP.shaft_frequency, Self::TUNING.shaft_damping);
-}
-
-/// A machine that starts, runs, stops and trips.
-///
-/// ```
-#[doc = include_str!("../generator_set.txt")]
-/// use driveline::settings::SequencerSettings;
-/// impl HasSequencer for Set {
-///     // as usual, but for a crew that waits for a cold engine
-///     const SEQUENCER: SequencerSettings = SequencerSettings { start: 90.0, ..SequencerSettings::of(&Self::RATING) };
-/// }
-/// assert!((Set::SEQUENCER.overspeed - 1.1 * 157.08).abs() < 1e-3);
-/// ```
-pub trait HasSequencer: Machine {
-    /// Limits of the sequencer: [`SequencerSettings::of`] the rating.
-    const SEQUENCER: SequencerSettings = SequencerSettings::of(&Self::RATING);
 }
 
 /// A machine whose torque comes from an actuator of `K` lags in a row, which reports its position: a fuel rack, a steam
@@ -217,7 +156,7 @@ macro_rules! governors {
                 LagConfig::<$number>::new(M::SPEED_LOOP.damping_lag, M::PERIOD, $bases);
             [] Machine, SpeedLag => LagConfig<$number>,
                 LagConfig::<$number>::new(M::SPEED_LOOP.speed_lag, M::PERIOD, $bases);
-            [] HasDroop, Droop => DroopConfig<$number>,
+            [] Machine, Droop => DroopConfig<$number>,
                 DroopConfig::<$number>::new(
                     M::DROOP,
                     M::RATING.speed.0,
@@ -228,11 +167,11 @@ macro_rules! governors {
             [K] HasBarredSpeeds<K>, Barred<K> => BarredConfig<$number, K>,
                 BarredConfig::<$number, K>::new(&M::BARRED, M::QUICK_RAMP, M::PERIOD, $bases);
             [] Machine, FeedForward => FeedForwardConfig<$number>,
-                FeedForwardConfig::<$number>::new(M::GAINS.governor().share, $bases),
-                LoopPart { forward: M::GAINS.governor().share, ..LoopPart::NONE };
+                FeedForwardConfig::<$number>::new(M::GAINS.design().share, $bases),
+                LoopPart { forward: M::GAINS.design().share, ..LoopPart::NONE };
             [] Machine, AccelerationFeedback => AccelerationFeedbackConfig<$number>,
-                AccelerationFeedbackConfig::<$number>::new(M::GAINS.governor(), $bases),
-                LoopPart { acceleration: M::GAINS.governor().acceleration, ..LoopPart::NONE };
+                AccelerationFeedbackConfig::<$number>::new(M::GAINS.design(), $bases),
+                LoopPart { acceleration: M::GAINS.design().acceleration, ..LoopPart::NONE };
             [] Machine, ActiveDamping => ActiveDampingConfig<$number>,
                 ActiveDampingConfig::<$number>::new(&M::SPEED_LOOP, $bases),
                 LoopPart { damping: M::SPEED_LOOP.damping, ..LoopPart::NONE };
@@ -242,7 +181,7 @@ macro_rules! governors {
                 TorqueRangeConfig::<$number>::new(M::LEAST_TORQUE, M::RATING.torque_limit.0, $bases);
             [K] HasTorqueCurve<K>, Curve<K> => CurveConfig<$number, K>,
                 CurveConfig::<$number, K>::new(&M::CURVE, M::LEAST_TORQUE, $bases);
-            [] HasSequencer, Sequencer => SequencerConfig<$number>,
+            [] Machine, Sequencer => SequencerConfig<$number>,
                 SequencerConfig::<$number>::new(&M::SEQUENCER, M::PERIOD, $bases);
             [K] HasActuator<K>, ActuatorMonitor<$number, K> => ActuatorMonitorConfig<$number, K>,
                 ActuatorMonitorConfig::<$number, K>::new(&M::LAGS, &M::MONITOR, M::PERIOD, $bases);
@@ -304,7 +243,7 @@ macro_rules! governors {
             const LOOP: LoopPart = G::LOOP;
         }
 
-        impl<M: HasInputShaper, G, const SLOTS: usize, const PARTS: usize> Configure<M, $number>
+        impl<M: Machine, G, const SLOTS: usize, const PARTS: usize> Configure<M, $number>
             for InputShaper<G, SLOTS, PARTS>
         where
             G: Configure<M, $number, Config: Copy>,
@@ -321,7 +260,7 @@ macro_rules! governors {
             const LOOP: LoopPart = G::LOOP;
         }
 
-        impl<M: HasBacklash, L: Configure<M, $number, Config: Copy>> Configure<M, $number> for BacklashTakeUp<L> {
+        impl<M: Machine, L: Configure<M, $number, Config: Copy>> Configure<M, $number> for BacklashTakeUp<L> {
             type Config = BacklashTakeUpConfig<$number, L::Config>;
             const CONFIG: Self::Config =
                 BacklashTakeUpConfig::<$number, _>::new(&M::TAKE_UP, M::GAINS.proportional(), L::CONFIG, $bases);

@@ -2,12 +2,13 @@
 
 use super::GainSource;
 use crate::design::{
-    Actuator, BacklashDesign, BacklashTuning, Disturbance, Encoder, LoadStep, Rate, RigidDesign, Robustness,
-    SpeedLoopDesign, SpeedLoopTuning, Supervision, Tolerance, TwoMassDesign,
+    Actuator, BacklashDesign, BacklashTakeUpDesign, BacklashTakeUpTuning, BacklashTuning, Disturbance, Encoder,
+    InputShaperDesign, LoadStep, Rate, RigidDesign, Robustness, SpeedLoopDesign, SpeedLoopTuning, Supervision,
+    Tolerance, TwoMassDesign,
 };
 use crate::learning::LearningBounds;
 use crate::machine::{Chain, Match, Speed, Torque, TwoMass};
-use crate::settings::{Bases, Cycle, Gear, LoadGear, Screening};
+use crate::settings::{Bases, Cycle, Gear, LoadGear, Screening, SequencerSettings};
 
 /// Rating of the motor: a rated torque, a rated speed and the torque limit, each above zero, the limit at least the
 /// rated torque. A drive whose machine breaks one of these rules is a compile error that names the field.
@@ -71,6 +72,25 @@ impl Rating {
             1e-4,
             rate,
         )
+    }
+
+    /// A gap taken up gently: six tenths of rated torque in it, and three times rated torque within a period of the shaft,
+    /// which is as much as its swing allows; twice as fast it falls. An impact may add twice rated torque. The damping is
+    /// that of a motor that outweighs its load five times.
+    ///
+    /// Nothing observes the load's speed through an open gap: braked twice as much, a motor of 1.1 times the inertia
+    /// swings through it for ever.
+    #[must_use]
+    pub const fn taking_up(&self) -> BacklashTakeUpTuning {
+        let rated = self.torque.0;
+        BacklashTakeUpTuning {
+            impact: 2.0 * rated,
+            torque: 0.6 * rated,
+            rise: 3.0 * rated,
+            fall: 6.0 * rated,
+            max_torque: self.torque_limit.0,
+            damping: 0.02,
+        }
     }
 
     /// Limits of a sample: torque two thirds over its limit, which no healthy drive reaches; setpoint a fifth over
@@ -223,6 +243,20 @@ pub trait Machine {
     const RAMP: f64 = Self::RATING.ramp(Self::CHAIN.total_inertia());
     /// Source of the composed governor's gains: the speed loop.
     const GAINS: GainSource = GainSource::SpeedLoop(Self::SPEED_LOOP);
+    /// Fraction of rated speed by which a [`Droop`](crate::governor::Droop) lowers the setpoint at rated torque: 4 %, as
+    /// is usual for sets on one grid.
+    const DROOP: f64 = 0.04;
+    /// Tuning of the [`BacklashTakeUp`](crate::governor::BacklashTakeUp), for a gap or a slack rope:
+    /// [`Rating::taking_up`].
+    const TAKING_UP: BacklashTakeUpTuning = Self::RATING.taking_up();
+    /// The taking up, from the two masses, rate and tuning.
+    const TAKE_UP: BacklashTakeUpDesign = Self::TWO_MASS.take_up(Self::RATE, Self::TAKING_UP);
+    /// Shaper of a setpoint that does not excite the load's swing: for the vibration that the speed loop is designed to
+    /// leave.
+    const SHAPER: InputShaperDesign =
+        InputShaperDesign::new(Self::SPEED_LOOP.shaft_frequency, Self::TUNING.shaft_damping);
+    /// Limits of the [`Sequencer`](crate::governor::Sequencer): [`SequencerSettings::of`] the rating.
+    const SEQUENCER: SequencerSettings = SequencerSettings::of(&Self::RATING);
     /// Smallest torque of a motor whose limits differ (N m), zero or below: zero, as an engine cannot brake.
     const LEAST_TORQUE: f64 = 0.0;
 

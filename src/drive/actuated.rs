@@ -22,7 +22,6 @@ use crate::sample::{Command, Estimate, Sample};
 ///
 /// ```
 #[doc = include_str!("../generator_set.txt")]
-/// impl HasSequencer for Set {}
 /// impl HasActuator<1> for Set {
 ///     const LAGS: [f64; 1] = [0.02];
 ///     const TORQUE_DELAY: f64 = 0.0065;

@@ -44,7 +44,7 @@ pub trait Sequence<N: Number>: Default {
 /// A governor with a run sequence: it starts, stops and trips.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no run sequence",
-    note = "a trip needs one: `SpeedGovernor<(), (), SymmetricLimit, Sequencer>`, and `HasSequencer` for the machine"
+    note = "a trip needs one: `SpeedGovernor<(), (), SymmetricLimit, Sequencer>`"
 )]
 pub trait HasRunSequence {
     /// The run sequence.

@@ -100,6 +100,10 @@ pub struct Chain {
     ending: [f64; 2],
     /// Weight torque without losses (N m).
     pub(super) gravity: f64,
+    /// Lengths of the rope (m): the shortest, that of its stiffness, the longest; zeros without them.
+    pub(super) lengths: [f64; 3],
+    /// The least and the largest load (kg); zeros without them.
+    pub(super) loads: [f64; 2],
     /// The first element that was refused, and why.
     pub(super) error: Option<Error>,
 }
@@ -131,6 +135,8 @@ impl Chain {
             waiting: [1.0; 2],
             ending: [1.0; 2],
             gravity: 0.0,
+            lengths: [0.0; 3],
+            loads: [0.0; 2],
             error: if right { None } else { Some(Error::MotorInertia) },
         }
     }

@@ -26,6 +26,8 @@ sentences! {
     RopeFalls => "falls of the rope must be at least 1",
     RopeStiffness => "stiffness of the rope must be positive and finite (N/m at the load)",
     RopeDamping => "damping of the rope must be zero or positive and finite (N s/m at the load)",
+    HoistingRange => "lengths of the rope and loads of the hoist must be positive, finite and rise: the shortest, that \
+        of its stiffness, the longest (m); the least, the largest (kg)",
     LoadMass => "mass of the load must be positive and finite (kg)",
     BacklashGap => "gap of the backlash must be zero or positive and finite (rad on its own shaft, m after a drum)",
     DrumMissing => "a rope or a mass needs a drum before it",

@@ -71,21 +71,51 @@ impl Chain {
         if self.gravity > 0.0 { self.gravity / (STANDARD_GRAVITY * self.travel) } else { 0.0 }
     }
 
+    /// Lengths of the last rope: the shortest, that of its stiffness, the longest.
+    ///
+    /// Refused: [`Error::HoistingRange`].
+    #[must_use]
+    pub const fn lengths(mut self, shortest: Length, of_stiffness: Length, longest: Length) -> Self {
+        self.lengths = [shortest.0, of_stiffness.0, longest.0];
+        if rise(&self.lengths) { self } else { self.refuse(Error::HoistingRange) }
+    }
+
+    /// The least and the largest load of a hoist, such as the empty hook and a tenth over the largest.
+    ///
+    /// Refused: [`Error::HoistingRange`].
+    #[must_use]
+    pub const fn loads(mut self, least: Mass, largest: Mass) -> Self {
+        self.loads = [least.0, largest.0];
+        if rise(&self.loads) { self } else { self.refuse(Error::HoistingRange) }
+    }
+
+    /// Lengths of the rope (m), as given by [`lengths`](Self::lengths): the shortest, that of its stiffness, the longest.
+    #[must_use]
+    pub const fn lengths_of_rope(&self) -> [f64; 3] {
+        self.lengths
+    }
+
+    /// The least and the largest load (kg), as given by [`loads`](Self::loads).
+    #[must_use]
+    pub const fn least_and_largest_load(&self) -> [f64; 2] {
+        self.loads
+    }
+
     /// The same hoist with another load, on another length of its rope: the lifted mass and the stiffness of the last
     /// shaft are replaced, this in proportion to the inverse of the length; the rope's damping stays. A shaft in series
     /// with the rope counts as rope.
     ///
-    /// Refused: [`Error::LoadMass`] also for a chain that lifts nothing, [`Error::RopeStiffness`] for a length that is
-    /// not positive.
+    /// Refused: [`Error::LoadMass`] also for a chain that lifts nothing, [`Error::HoistingRange`] for a length that is
+    /// not positive, or a chain without [`lengths`](Self::lengths).
     #[must_use]
-    pub const fn hoisting(mut self, load: Mass, rope: Length, rope_of_chain: Length) -> Self {
+    pub const fn hoisting(mut self, load: Mass, rope: Length) -> Self {
         let lifted = self.lifted_mass();
         if !positive(lifted) || !positive(load.0) || self.count < 2 {
             return self.refuse(Error::LoadMass);
         }
-        let share = rope_of_chain.0 / rope.0;
+        let share = self.lengths[1] / rope.0;
         if !positive(rope.0) || !positive(share) {
-            return self.refuse(Error::RopeStiffness);
+            return self.refuse(Error::HoistingRange);
         }
         let last = self.count - 1;
         self.inertia[last] += self.at_motor(load.0) - self.at_motor(lifted);
@@ -155,4 +185,16 @@ impl Chain {
             Flow::Overhauling => kept * self.back_efficiency,
         }
     }
+}
+
+/// Whether values rise from above zero.
+const fn rise(values: &[f64]) -> bool {
+    let mut least = 0.0;
+    each!(k, 0..values.len(), {
+        if !positive(values[k]) || values[k] < least {
+            return false;
+        }
+        least = values[k];
+    });
+    true
 }

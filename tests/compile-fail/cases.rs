@@ -65,11 +65,9 @@ impl Machine for Set {
     const ENCODER: Encoder = Encoder::lines(2048);
     const RATE_HZ: u32 = 2_400;
     const ACTUATOR: Actuator = Actuator { delay: Actuator::firing_delay(6, true, 157.08), lag: 0.02 };
-    const GAINS: GainSource = GainSource::Governor(Self::TWO_MASS.governor(Self::RATE, Self::ACTUATOR, 2.5, FED));
+    const GAINS: GainSource = GainSource::governor::<Self>(2.5, FED);
 }
 const FED: LoadFeedForward = LoadFeedForward { share: 0.9, lag: 0.018 };
-impl HasDroop for Set { const DROOP: f64 = 0.04; }
-impl HasSequencer for Set {}
 impl HasActuator<1> for Set { const LAGS: [f64; 1] = [0.02]; const TORQUE_DELAY: f64 = 0.0065; }
 type Governed = SpeedGovernor<Droop, FeedForward, TorqueRange, Sequencer, MovingAverage<32>>;
 type SetDrive = Actuated<Drive<f32, TwoMassObserver, Governed>, 1, 32>;
@@ -137,10 +135,10 @@ pub const CASES: &[Case] = cases! {
     ROLL: constants_missing, "tick(&CONFIG, " => "tick(", "provide the argument", Line;
     ROLL: drive_for_machine, "configure::<Roll>" => "configure::<RollDrive>", "is no machine", Line;
     ROLL: not_mutable, "let mut drive" => "let drive", "consider changing this to be mutable", Line;
-    GEARED: part_without_constants, "TwoMassObserver>, SpeedLoop" => "TwoMassObserver>, driveline::governor::SpeedGovernor<driveline::governor::Droop>", "HasDroop", Line;
+    GEARED: part_without_constants, "TwoMassObserver>, SpeedLoop" => "TwoMassObserver>, driveline::governor::SpeedGovernor<driveline::governor::Barred<1>>", "HasBarredSpeeds", Line;
     SET: actuator_not_allowed_for, "[0.02]" => "[0.2]", "give ACTUATOR at least their sum", Line;
     SET: no_run_sequence, "TorqueRange, Sequencer" => "TorqueRange, ()", "has no run sequence", Line;
-    SET: trait_missing, "impl HasDroop for Set { const DROOP: f64 = 0.04; }" => "", "HasDroop", Line;
+    SET: trait_missing, "TorqueRange" => "Curve<3>", "HasTorqueCurve", Line;
     SET: ring_too_short, "1, 32>;\nstatic" => "1, 8>;\nstatic", "needs a RING of more than 15.6 ticks", Line;
 };
 

@@ -1,6 +1,6 @@
 //! A drive behind an actuator: a rack and a rotor of equations of their own.
 
-use driveline::configure::{GainSource, HasActuator, HasDroop, HasSequencer};
+use driveline::configure::{GainSource, HasActuator};
 use driveline::design::{Actuator, LoadFeedForward};
 use driveline::drive::Composition as _;
 use driveline::fault::Faults;
@@ -17,14 +17,10 @@ impl Machine for Set {
     const RATE_HZ: u32 = 2_400;
     const DISTURBANCE: Disturbance = Disturbance { torque_accuracy: 636.0, load_torque_step: 2546.0, within: 1.0 };
     const ACTUATOR: Actuator = Actuator { delay: Actuator::firing_delay(6, true, 157.08), lag: 0.02 };
-    const GAINS: GainSource = GainSource::Governor(Self::TWO_MASS.governor(Self::RATE, Self::ACTUATOR, 2.5, FED));
+    const GAINS: GainSource = GainSource::governor::<Self>(2.5, FED);
     const BASES: driveline::settings::Bases = driveline::settings::Bases::new(&Self::TWO_MASS, 6.4e3, 210.0);
 }
 const FED: LoadFeedForward = LoadFeedForward { share: 0.9, lag: 0.018 };
-impl HasDroop for Set {
-    const DROOP: f64 = 0.04;
-}
-impl HasSequencer for Set {}
 impl HasActuator<1> for Set {
     const LAGS: [f64; 1] = [0.02];
     const TORQUE_DELAY: f64 = 0.0065;

@@ -24,7 +24,9 @@ impl<const RATE_HZ: u32> Machine for Winch<RATE_HZ> {
         .gear(Ratio(25.0), Efficiency(0.95))
         .drum(Diameter(0.6))
         .damped_rope(Falls(4), Stiffness(6.0e6), LinearDamping(6.0e3))
-        .lifted(Mass(10_000.0));
+        .lengths(Length(6.0), Length(8.0), Length(20.0))
+        .lifted(Mass(10_000.0))
+        .loads(Mass(400.0), Mass(11_000.0));
     const RATING: Rating = Rating { torque: Torque(355.0), speed: Speed::rpm(1480.0), torque_limit: Torque(640.0) };
     const ENCODER: Encoder = Encoder::lines(2048);
     const RATE_HZ: u32 = RATE_HZ;
@@ -37,11 +39,7 @@ impl<const RATE_HZ: u32> Machine for Winch<RATE_HZ> {
     };
 }
 
-impl<const RATE_HZ: u32> HasLoadAndRope<5, 4> for Winch<RATE_HZ> {
-    const LOAD: [Mass; 2] = [Mass(400.0), Mass(11_000.0)];
-    const ROPE: [Length; 2] = [Length(6.0), Length(20.0)];
-    const ROPE_OF_CHAIN: Length = Length(8.0);
-}
+impl<const RATE_HZ: u32> HasLoadAndRope<5, 4> for Winch<RATE_HZ> {}
 
 type Inner<N, O> = Drive<N, EccentricityObserver<GearedObserver<O>>, SpeedLoop<SetpointLag>>;
 type WinchDrive<N, O, const RATE_HZ: u32> = Adaptive<Winch<RATE_HZ>, Inner<N, O>, LoadAndRope<5, 4>, Learners>;

@@ -14,10 +14,10 @@
 //! | `learnt` | as `slack`, with torque offset and inertia learnt | as `slack` |
 //! | `exact` | with the two-mass observer, which takes the gap for closed | by a plain speed loop |
 
-use driveline::configure::{HasBacklash, Machine, Rating};
-use driveline::design::{BacklashTakeUpTuning, Disturbance, Encoder, SpeedLoopDesign, SpeedLoopTuning};
+use driveline::configure::{Machine, Rating};
+use driveline::design::{Disturbance, Encoder, SpeedLoopDesign, SpeedLoopTuning};
 use driveline::drive::Drive;
-use driveline::governor::{BacklashTakeUp, SpeedGovernor, SymmetricLimit};
+use driveline::governor::TakeUpGovernor;
 use driveline::machine::{Chain, Damping, Gap, Inertia, Match, Speed, Stiffness, Torque, TwoMass};
 use driveline::observer;
 use driveline::settings::{Bases, Screening};
@@ -67,22 +67,6 @@ impl Machine for BloomingMill {
     };
 }
 
-/// Six tenths of rated torque in the gap, and three times rated torque within a period of the spindles, which is as
-/// much as their swing allows; twice as fast it falls.
-///
-/// The impact is so large that the gap is braked little more than the spindles are damped. Nothing observes the rolls'
-/// speed through an open gap: braked twice as much, a motor of 1.1 times the inertia swings through it for ever.
-impl HasBacklash for BloomingMill {
-    const TAKING_UP: BacklashTakeUpTuning = BacklashTakeUpTuning {
-        impact: 2.0 * Self::RATING.torque.0,
-        torque: 0.6 * Self::RATING.torque.0,
-        rise: 3.0 * Self::RATING.torque.0,
-        fall: 6.0 * Self::RATING.torque.0,
-        max_torque: Self::RATING.torque_limit.0,
-        damping: 0.02,
-    };
-}
-
 /// With the spindles uncoupled, as for a change of the rolls: motor and pinion stand. In a window of 1 s the torque's
 /// noise is 0.03 % of rated, and cogging is averaged over some periods.
 impl NoLoadRun for BloomingMill {
@@ -95,12 +79,9 @@ pub type Backlash<N> = Governed<N, observer::BacklashObserver>;
 /// Two masses, the gap taken for closed.
 pub type Exact<N> = Governed<N, observer::TwoMassObserver>;
 /// Two masses and the gap, with backlash take-up.
-pub type Slack<N> = GovernedBy<N, observer::BacklashObserver, TakeUp>;
+pub type Slack<N> = GovernedBy<N, observer::BacklashObserver, TakeUpGovernor>;
 /// The same, with torque offset and inertia learnt with the spindles uncoupled.
-pub type Learnt<N> = Composed<Drive<N, observer::BacklashObserver, TakeUp>, NoLoadLearner<N, BloomingMill>>;
-
-/// A speed governor with backlash take-up.
-type TakeUp = SpeedGovernor<(), (), BacklashTakeUp<SymmetricLimit>>;
+pub type Learnt<N> = Composed<Drive<N, observer::BacklashObserver, TakeUpGovernor>, NoLoadLearner<N, BloomingMill>>;
 
 variants! {
     "backlash": Backlash for BloomingMill;

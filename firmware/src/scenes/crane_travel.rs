@@ -9,7 +9,7 @@
 //! Its known part is deducted from the drive's reported torque. To the observer the rest is a part of
 //! the shaft torque and of the load torque alike, which changes nothing else while it is constant.
 
-use driveline::configure::{HasInputShaper, Machine, Rating};
+use driveline::configure::{Machine, Rating};
 use driveline::design::{Disturbance, Encoder, RigidDesign, SpeedLoopTuning, Tolerance, Undescribed};
 use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::{InputShaper, SetpointLag, SpeedLoop};
@@ -92,9 +92,6 @@ impl Machine for StiffTravel {
     const BASES: Bases = Bases::new(&Self::TWO_MASS, 4.0 * Self::RATING.torque_limit.0, 1.34 * Self::RATING.speed.0);
     const SCREENING: Screening = CraneTravel::SCREENING;
 }
-
-/// Three parts, half a period of the swing apart, for the vibration that this speed loop leaves.
-impl HasInputShaper for StiffTravel {}
 
 /// With an empty hook. A change of the speed leaves it swinging without damping at 0.16 Hz, with some 0.3 % of rated
 /// torque. A window has one period: its mean is the steady torque. With windows of half a period the inertia was off by

@@ -35,9 +35,7 @@ pub mod parts;
 
 use core::marker::PhantomData;
 
-use driveline::configure::{
-    GainSource, HasActuator, HasBarredSpeeds, HasDroop, HasSequencer, HasTorqueCurve, Machine, Rating,
-};
+use driveline::configure::{GainSource, HasActuator, HasBarredSpeeds, HasTorqueCurve, Machine, Rating};
 use driveline::design::{
     Actuator, BarredSpeeds, Disturbance, Encoder, GovernorDesign, LoadFeedForward, NaturalDamping, Rate, Robustness,
     TorqueCurve, USUAL_MARGIN, VirtualInertia,
@@ -332,6 +330,7 @@ impl<S: HasSet, const CONSTANTS: usize> Machine for With<S, CONSTANTS> {
     const DISTURBANCE: Disturbance = S::SET.disturbance;
     const ACTUATOR: Actuator = S::SET.actuator;
     const GAINS: GainSource = GainSource::Governor(S::SET.governor(CONSTANTS == FED));
+    const DROOP: f64 = if CONSTANTS == DROOPING { DROOP } else { 0.0 };
     /// The diesel without feed-forward has 28.9 degrees.
     const ROBUSTNESS: Robustness = Robustness { phase: 0.5, ..Robustness::USUAL };
     const RAMP: f64 = S::SET.ramp;
@@ -339,10 +338,6 @@ impl<S: HasSet, const CONSTANTS: usize> Machine for With<S, CONSTANTS> {
     const SCREENING: Screening = S::SET.screening();
     const CYCLE: Cycle = Cycle::FOUR_STROKE;
     const CYCLES: u32 = 8;
-}
-
-impl<S: HasSet, const CONSTANTS: usize> HasDroop for With<S, CONSTANTS> {
-    const DROOP: f64 = if CONSTANTS == DROOPING { DROOP } else { 0.0 };
 }
 
 impl<S: HasSet, const CONSTANTS: usize> HasBarredSpeeds<1> for With<S, CONSTANTS> {
@@ -353,8 +348,6 @@ impl<S: HasSet, const CONSTANTS: usize> HasBarredSpeeds<1> for With<S, CONSTANTS
 impl<S: HasSet, const CONSTANTS: usize> HasTorqueCurve<4> for With<S, CONSTANTS> {
     const CURVE: TorqueCurve<4> = S::SET.curve;
 }
-
-impl<S: HasSet, const CONSTANTS: usize> HasSequencer for With<S, CONSTANTS> {}
 
 impl<S: HasSet, const CONSTANTS: usize> HasActuator<2> for With<S, CONSTANTS> {
     const LAGS: [f64; 2] = S::SET.lags;

@@ -18,7 +18,7 @@
 //! - `semi-implicit` estimates with two masses, a rope that pushes, and governs by the speed loop with its damping.
 //! - `rigid` estimates with one mass and governs by the speed loop with its damping.
 
-use driveline::configure::{HasBacklash, Machine, Rating};
+use driveline::configure::{Machine, Rating};
 use driveline::design::{
     BacklashTakeUpDesign, BacklashTakeUpTuning, BacklashTuning, Disturbance, Encoder, RigidDesign, SpeedLoopDesign,
     SpeedLoopTuning, Spread, Tolerance,
@@ -105,11 +105,8 @@ impl Machine for SkipOnRope {
     /// Motor and brake pull together.
     const SCREENING: Screening =
         Screening { torque: Self::RATING.torque_limit.0 + 1.05 * BRAKE_TORQUE, ..SkipWinch::SCREENING };
-}
-
-/// While the rope is slack, rated torque holds the drum to the skip's speed, also against the brake. A tight rope's
-/// torque rises by as much within a period of the swing, which is damped as far as the observer's lag allows with 6 dB.
-impl HasBacklash for SkipOnRope {
+    /// While the rope is slack, rated torque holds the drum to the skip's speed, also against the brake. A tight rope's
+    /// torque rises by as much within a period of the swing, which is damped as far as the observer's lag allows with 6 dB.
     const TAKING_UP: BacklashTakeUpTuning = BacklashTakeUpTuning {
         impact: 0.2 * Self::RATING.torque.0,
         torque: Self::RATING.torque.0,

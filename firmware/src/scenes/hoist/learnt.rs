@@ -3,18 +3,13 @@
 //! The torque constant and the motor's inertia are learnt with the empty hook and a test weight, up and down at rated
 //! speed and with steps of the speed.
 
-use driveline::adaptive::{Adaptive, Known, Learners, LoadAndRope};
-use driveline::drive::{Composition, ConfigOf, Drive};
-use driveline::governor::{SetpointLag, SpeedLoop};
-use driveline::learning::EccentricityObserver;
-use driveline::observer::{GearedObserver, SemiImplicitObserver};
+use driveline::adaptive::{self, Known};
+use driveline::drive::{Composition, ConfigOf};
 
 use super::machine::Hoist;
 use crate::scene::composed::{Beside, Composed};
 
-/// The ramp's setpoint lags by the loop's own time constant, so that a ramp leaves less of a swing.
-type Inner<N> = Drive<N, EccentricityObserver<GearedObserver<SemiImplicitObserver>>, SpeedLoop<SetpointLag>>;
-type HoistDrive<N> = Adaptive<Hoist<10_000>, Inner<N>, LoadAndRope<5, 4>, Learners>;
+type HoistDrive<N> = adaptive::HoistDrive<Hoist<10_000>, N, 5, 4>;
 
 /// The drive with its schedule and learners, at 10 kHz.
 pub type Learnt<N> = Composed<HoistDrive<N>, Named>;

@@ -22,9 +22,6 @@ pub const TRAVEL: f64 = 0.8 / 2.0 / 2.0 / 31.5;
 
 /// From an empty hook to a tenth over the largest load.
 impl<const RATE_HZ: u32> HasLoadAndRope<5, 4> for Hoist<RATE_HZ> {
-    const LOAD: [Mass; 2] = [Mass(500.0), Mass(13_000.0)];
-    const ROPE: [Length; 2] = [Length(5.0), Length(30.0)];
-    const ROPE_OF_CHAIN: Length = Length(12.0);
     const LOADS: [f64; 5] = [13_000.0, 6_000.0, 2_700.0, 1_200.0, 500.0];
     const ROPES: [f64; 4] = [30.0, 17.0, 9.0, 5.0];
     /// Within 6 dB and 30 degrees at each point, so that a swing decays 1.3 times as fast as under a plain loop: the
@@ -45,7 +42,9 @@ impl<const RATE_HZ: u32> Machine for Hoist<RATE_HZ> {
         .gear(Ratio(31.5), Efficiency(0.94))
         .drum(Diameter(0.8))
         .damped_rope(Falls(2), Stiffness(2.9e6), LinearDamping(3.6e3))
-        .lifted(Mass(12_000.0));
+        .lengths(Length(5.0), Length(12.0), Length(30.0))
+        .lifted(Mass(12_000.0))
+        .loads(Mass(500.0), Mass(13_000.0));
     /// 1480 r/min.
     const RATING: Rating = Rating { torque: Torque(750.0), speed: Speed(155.0), torque_limit: Torque(1_350.0) };
     const ENCODER: Encoder = Encoder::lines(2048);

@@ -5,6 +5,7 @@ use std::path::Path;
 use cargo_driveline::machine_file::{Diagnostic, Element, MachineFile, parse, read};
 use driveline::configure::Machine as _;
 use driveline::design::{ClosedLoop, Disturbance, Error, Rate, SpeedLoopTuning};
+use driveline::machine::{Length, Mass};
 use driveline_firmware::scenes::hoist::Hoist;
 use proptest::prelude::*;
 
@@ -39,7 +40,8 @@ fn the_machines_of_the_repository_are_read() {
 #[test]
 fn the_file_and_the_scene_are_one_hoist() {
     let hoist = parse("hoist.toml", HOIST).unwrap();
-    assert_eq!(hoist.chain, Hoist::<10_000>::CHAIN);
+    let chain = hoist.chain.lengths(Length(5.0), Length(12.0), Length(30.0));
+    assert_eq!(chain.loads(Mass(500.0), Mass(13_000.0)), Hoist::<10_000>::CHAIN);
     assert_eq!(
         (hoist.limits.torque, hoist.limits.speed),
         (Hoist::<10_000>::RATING.torque_limit.0, Hoist::<10_000>::RATING.speed.0)

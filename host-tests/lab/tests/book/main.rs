@@ -6,5 +6,6 @@ mod dependencies;
 mod figures;
 mod files;
 mod links;
+mod listings;
 mod pages;
 mod scenes;

@@ -1,7 +1,6 @@
 //! The mill in closed loop with its full plant, on the host: what the shaft feels, and what is
 //! estimated.
 
-use driveline::configure::HasBacklash as _;
 use driveline::configure::Machine as _;
 use driveline::design::{BacklashTakeUpTuning, Error, Rate};
 use driveline::governor::{
