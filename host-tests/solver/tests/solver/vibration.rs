@@ -100,6 +100,52 @@ fn damped_eigenvalues_are_those_of_the_dense_matrix() {
     println!("worst of 200: {worst:.1e}");
 }
 
+/// Shafts with an inertia of their own and without, all with damping in the ratio `b` to their stiffness: each mode has
+/// `s^2 + b omega^2 s + omega^2 = 0`, below and beyond critical damping.
+#[test]
+fn damping_in_the_ratio_of_the_stiffness_damps_each_mode_by_its_frequency() {
+    let mut noise = Noise::new(11);
+    for number in 0..200 {
+        let mut decades = |low: f64, high: f64| 10f64.powf(low + (high - low) * (0.5 + 0.5 * noise.uniform()));
+        let count = 1 + decades(0.0, 0.6) as usize;
+        let inertias: Vec<f64> = (0..=count).map(|_| decades(-1.0, 1.0)).collect();
+        // one at least, and half of the others
+        let own = |k: usize, inertia: f64| if k == 0 || number % (k + 2) == 0 { inertia } else { 0.0 };
+        let shafts: Vec<[f64; 2]> = (0..count).map(|k| [decades(3.0, 5.0), own(k, decades(-1.0, 1.0))]).collect();
+        let network = |ratio: f64| {
+            let mut network = Network::default();
+            inertias.iter().for_each(|&inertia| _ = network.coordinate(inertia, 0.0));
+            for (k, &[stiffness, inertia]) in shafts.iter().enumerate() {
+                network.link(Spring::shaft(k, k + 1, stiffness).damping(ratio * stiffness).inertia(inertia));
+            }
+            network
+        };
+        let omega = network(0.0).modes(8).omega;
+        let ratio = 2.0 * decades(-2.0, 1.0) / omega[7];
+        let damped = network(ratio);
+        let mut found = damped.decays(&damped.modes(8)).unwrap_or_else(|error| panic!("{number}: {error}"));
+        for omega in omega {
+            let zeta = 0.5 * ratio * omega;
+            let root = (1.0 - zeta * zeta).abs().sqrt();
+            let expected = if zeta < 1.0 {
+                vec![Complex::new(zeta, root)]
+            } else {
+                vec![(zeta + root).into(), (1.0 / (zeta + root)).into()]
+            };
+            for expected in expected {
+                let off =
+                    |k: &usize| (found[*k].decay / omega - expected.re).hypot(found[*k].omega / omega - expected.im);
+                let near = (0..found.len()).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap();
+                // two decays that are nearly one are known to the root of a rounding
+                let close = (1e-12 + 1e-14 / root) * expected.norm();
+                assert!(off(&near) < close, "{number}: {omega} {zeta} {expected} {:?}", found[near]);
+                found.remove(near);
+            }
+        }
+        assert!(found.is_empty(), "{number}: {found:?}");
+    }
+}
+
 /// A shaft held at one end with an inertia at the other, `theta tan(theta) = I/J`, and with none, `(m - 1/2) pi`.
 #[test]
 fn an_even_shaft_is_its_transcendental_equation() {

@@ -116,7 +116,7 @@ pub fn excite(critical: &mut [Critical], engine: &Engine, modes: &Modes, respons
         critical.phasor_sum = Some(sum / largest);
         critical.torque = Some(torque);
         // damping alone limits the mode
-        if response.network().dissipation(shape) > 0.0 {
+        if modes.dissipation[critical.mode - 1] > 0.0 {
             let mut torques = vec![Complex::from(0.0); shape.len()];
             for (cylinder, &mass) in engine.cylinders.iter().zip(&engine.at) {
                 torques[mass] += Complex::from_polar(torque / engine.ratio, -critical.order * cylinder.firing);

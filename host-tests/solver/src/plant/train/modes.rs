@@ -51,7 +51,10 @@ impl Train {
     pub fn decays(&self, modes: &TrainModes) -> Result<Vec<Decay>, PlantError> {
         let rigid_motions = modes.rigid_motions();
         let (omega, shapes) = (modes.omega[rigid_motions..].to_vec(), modes.shapes[rigid_motions..].to_vec());
-        self.network().decays(&Modes { omega, shapes, rigid_motions })
+        let network = self.network();
+        // no link of a train has an inertia of its own
+        let dissipation = shapes.iter().map(|shape| network.dissipation(shape, 0.0)).collect();
+        network.decays(&Modes { omega, shapes, dissipation, rigid_motions })
     }
 
     /// Inertias, dampings, and mean stiffnesses.

@@ -86,10 +86,12 @@ impl Network {
         let still = self.free(|link| link.stiffness > 0.0 || link.damping > 0.0, |at| at.viscous != 0.0);
         let zeros = modes.rigid_motions + still;
         let mut all: Vec<Iterate> = Vec::new();
-        for (m, (&omega, shape)) in modes.omega.iter().zip(&modes.shapes).enumerate() {
-            let half = 0.5 * self.dissipation(shape);
+        // Decays of even shafts crowd at stiffness over damping: further ones than these stand less than 1e-3 apart.
+        let aside = if self.is_distributed() { 1e-6 } else { 1e-3 };
+        for (m, (&omega, &dissipation)) in modes.omega.iter().zip(&modes.dissipation).enumerate() {
+            let half = 0.5 * dissipation;
             // no two alike, none on the real axis: two that stand together hold each other
-            let apart = Complex::new(1.0 + 1e-3 * (m as f64 * 0.618_034).fract(), 1e-3);
+            let apart = Complex::new(1.0 + aside * (m as f64 * 0.618_034).fract(), aside);
             if half.abs() < omega {
                 let at = Complex::new(-half, ((omega - half) * (omega + half)).sqrt());
                 all.push(Iterate::new(apart * at, true));

@@ -27,6 +27,8 @@ pub struct Modes {
     pub omega: Vec<f64>,
     /// Of each mode the amplitude of every coordinate, scaled to a kinetic energy `sum J q^2` of 1.
     pub shapes: Vec<Vec<f64>>,
+    /// Of each mode the modal damping, 1/s: its dissipation at unit speed. Zero of one that no damper touches.
+    pub dissipation: Vec<f64>,
     /// Motions without strain, which are not among these.
     pub rigid_motions: usize,
 }
@@ -37,12 +39,15 @@ impl Network {
     pub fn modes(&self, most: usize) -> Modes {
         let rigid_motions = self.free(|link| link.stiffness > 0.0, |_| false);
         let Some((cut, top, count)) = self.reach(most, rigid_motions) else {
-            return Modes { omega: Vec::new(), shapes: Vec::new(), rigid_motions };
+            return Modes { omega: Vec::new(), shapes: Vec::new(), dissipation: Vec::new(), rigid_motions };
         };
         let below = Below::of(&cut);
         let omega = below.frequencies(rigid_motions, count, top);
-        let shapes = cut.shapes(&below.elimination, &omega, self.size());
-        Modes { omega, shapes, rigid_motions }
+        let mut shapes = cut.shapes(&below.elimination, &omega);
+        let damped = self.cut(top);
+        let dissipation = shapes.iter().zip(&omega).map(|(shape, &omega)| damped.dissipation(shape, omega)).collect();
+        shapes.iter_mut().for_each(|shape| shape.truncate(self.size()));
+        Modes { omega, shapes, dissipation, rigid_motions }
     }
 
     /// The highest natural frequency (rad/s) of a network without shafts of their own inertia; zero of one without
@@ -87,8 +92,8 @@ impl Network {
         }
     }
 
-    /// Shapes of these frequencies, of the first coordinates, so many of them.
-    fn shapes(&self, elimination: &Elimination, omega: &[f64], size: usize) -> Vec<Vec<f64>> {
+    /// Shapes of these frequencies.
+    fn shapes(&self, elimination: &Elimination, omega: &[f64]) -> Vec<Vec<f64>> {
         let mut noise = Noise::new(1);
         let mut shapes: Vec<Vec<f64>> = Vec::with_capacity(omega.len());
         let mut factors = Vec::new();
@@ -137,7 +142,6 @@ impl Network {
             }
             shapes.extend(found.into_iter().take(batch.len()));
         }
-        shapes.iter_mut().for_each(|shape| shape.truncate(size));
         shapes
     }
 
@@ -145,24 +149,39 @@ impl Network {
     fn kinetic(&self, shape: &[f64], omega: f64) -> f64 {
         let lumped: f64 = self.coordinates.iter().zip(shape).map(|(at, q)| at.inertia * q * q).sum();
         let spread = |link: &Spring| {
-            let end = |k: usize| link.terms.get(k).map_or(0.0, |&(at, _)| shape[at]);
-            let angle = link.angle(omega);
-            let along = |x: f64| (angle * (1.0 - x)).sin() * end(0) + (angle * x).sin() * end(1);
-            let square =
-                |&(x, w): &(f64, f64)| w * [0.5 - 0.5 * x, 0.5 + 0.5 * x].map(|x| along(x).powi(2)).iter().sum::<f64>();
-            link.inertia * 0.5 * GAUSS.iter().map(square).sum::<f64>() / angle.sin().powi(2)
+            let ([near, far], angle) = (link.ends(shape), link.angle(omega));
+            let along = |x: f64| ((angle * (1.0 - x)).sin() * near + (angle * x).sin() * far) / angle.sin();
+            link.inertia * mean_square(along)
         };
         lumped + self.links.iter().filter(|link| link.inertia > 0.0).map(spread).sum::<f64>()
     }
 
-    /// Modal damping of a shape: its dissipation at unit speed, that of a shaft by the twist of its ends. Zero of a mode
-    /// that no damper touches.
-    #[must_use]
-    pub fn dissipation(&self, shape: &[f64]) -> f64 {
+    /// Dissipation of a shape at unit speed, that in short shafts with an inertia along their twist.
+    pub(in crate::plant) fn dissipation(&self, shape: &[f64], omega: f64) -> f64 {
         let ground = |(at, q): (&Coordinate, &f64)| at.viscous * q * q;
-        let twist = |link: &Spring| link.damping * link.terms.iter().map(|&(at, c)| c * shape[at]).sum::<f64>().powi(2);
+        let twist = |link: &Spring| {
+            if link.inertia == 0.0 {
+                return link.damping * link.terms.iter().map(|&(at, c)| c * shape[at]).sum::<f64>().powi(2);
+            }
+            let ([near, far], angle) = (link.ends(shape), link.angle(omega));
+            let slope = |x: f64| angle / angle.sin() * ((angle * x).cos() * far - (angle * (1.0 - x)).cos() * near);
+            link.damping * mean_square(slope)
+        };
         self.coordinates.iter().zip(shape).map(ground).sum::<f64>() + self.links.iter().map(twist).sum::<f64>()
     }
+}
+
+impl Spring {
+    /// Amplitudes at the ends of a shaft, zero at the ground.
+    fn ends(&self, shape: &[f64]) -> [f64; 2] {
+        [0, 1].map(|k| self.terms.get(k).map_or(0.0, |&(at, _)| shape[at]))
+    }
+}
+
+/// Mean of the square from 0 to 1.
+fn mean_square(of: impl Fn(f64) -> f64) -> f64 {
+    let both = |&(x, w): &(f64, f64)| w * [0.5 - 0.5 * x, 0.5 + 0.5 * x].map(|x| of(x).powi(2)).iter().sum::<f64>();
+    0.5 * GAUSS.iter().map(both).sum::<f64>()
 }
 
 /// Points and weights of Gauss and Legendre's rule of eight points, one side of it
