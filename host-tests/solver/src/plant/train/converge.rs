@@ -39,12 +39,12 @@ use crate::plant::converge::pass::{Pass, REACH};
 use growth::Growth;
 use textbook::{Change, Double};
 
-/// What the first step of a piece may deviate by, as a share of the peaks: ten steps of the second integrator, each
-/// right to 1e-13 of them. Rattling gears show 7e-14.
-const FRESH: f64 = 1e-12;
+/// What a step of the second integrator may deviate by, as a share of the peaks. The first tick of a piece may deviate
+/// by ten of them, or by as many as it takes at least: rattling gears show 7e-14, stiff ones of 17 steps a tick 1e-12.
+const FRESH: f64 = 1e-13;
 
-/// Growth within a piece that takes the error of a thousand steps, each right to 1e-13, beyond the bound.
-const GROWN: f64 = BOUND / 1e-10;
+/// Steps whose errors gather within a piece, at least; more where the second integrator takes more.
+const GATHERED: f64 = 1000.0;
 
 /// What is done to a motion: a tick, a torque held on a coordinate, its dry friction against the ground, stiffness and
 /// damping of a link.
@@ -149,8 +149,9 @@ pub fn prove(run: &Recording) -> Result<Proof, NotProven> {
 /// Where a rounding grows, two runs have nothing in common after some time. A check that comes out more than [`BOUND`]
 /// from the recording does that step again from the recording's own state before it, and goes on from there. The proof
 /// says how often: see [`Sensitive`]. A run that is wrong is lost as well, and not called sensitive: a piece ends only
-/// where a difference of 1e-13 at its begin has grown a hundredfold, as the solver shows that runs it twice, and its
-/// first step agrees to 1e-12 times its own growth.
+/// where the errors of its steps, each right to 1e-13, have grown to the bound, as the solver shows that runs it twice.
+/// That is a hundredfold after a thousand steps or fewer. Its first tick agrees to 1e-13 for each step of the second
+/// integrator, ten at least, times its own growth.
 ///
 /// # Errors
 /// [`NotProven`] if a step comes out more than [`BOUND`] from the recording, or cannot be done.
@@ -195,6 +196,10 @@ trait Again {
     fn restart(&mut self, sample: &[f64], time: f64);
     /// Does what is no tick.
     fn change(&mut self, step: Step);
+    /// Steps that it takes at least for `dt`, s, each with an error of its own.
+    fn steps(&self, _dt: f64) -> f64 {
+        1.0
+    }
     /// Goes on by `dt` to the time `end`, both in s; the sample there.
     fn advance(&mut self, dt: f64, end: f64) -> Result<Vec<f64>, NotProven>;
 }
@@ -228,12 +233,15 @@ fn follow<A: Again>(
         let time = run.times[sample];
         let mut largest = run.deviation(sample, before, &again.advance(dt, time)?, sizes);
         let refused = |found, expected| NotProven::Deviates { from: A::NAME, found, expected, time };
-        if pieces && largest > BOUND && begun < before && growth.until(run, sizes, index) > GROWN {
+        // what takes the errors of the steps so far beyond the bound
+        let grown = BOUND / (FRESH * again.steps(time - begun).max(GATHERED));
+        if pieces && largest > BOUND && begun < before && growth.until(run, sizes, index) > grown {
             again.restart(&run.samples[sample - 1], before);
             largest = run.deviation(sample, before, &again.advance(dt, time)?, sizes);
             growth.begin(run, index, &run.samples[sample - 1]);
-            if largest > FRESH && largest > FRESH * growth.until(run, sizes, index) {
-                return Err(refused(largest, FRESH));
+            let fresh = FRESH * again.steps(dt).max(10.0);
+            if largest > fresh && largest > fresh * growth.until(run, sizes, index) {
+                return Err(refused(largest, fresh));
             }
             let sensitive =
                 followed.sensitive.get_or_insert(Sensitive { from: before, restarts: 0, shortest: f64::MAX });
@@ -363,6 +371,10 @@ impl Again for Integrator<'_> {
             self.pass.longest = self.pass.longest.min(REACH / rate);
         }
         self.pass.anew();
+    }
+
+    fn steps(&self, dt: f64) -> f64 {
+        dt / self.pass.longest
     }
 
     /// To the clock of the run, which does not gather the rounding of its ticks: teeth that meet 1e-12 s late show.
