@@ -5,6 +5,7 @@
 //! [`estimate`] the likeliest machine with its deviations; whatever a record cannot determine is refused.
 
 mod cause;
+mod contact;
 mod estimate;
 mod identify;
 mod model;

@@ -312,6 +312,21 @@ pub fn three(lines: &[Line], two: &Estimate, setting: Setting) -> Option<[Estima
     Some([refined(two.model)?, refined(nearest.model)?])
 }
 
+/// Errors of lines over the sizes of the responses, their slopes over the parameters of a machine and of the transient,
+/// and these sizes.
+pub(super) fn slopes(lines: &[Line], model: &Model, setting: Setting) -> (DVector<f64>, DMatrix<f64>, Vec<f64>) {
+    let parameters = Parameters { start: *model };
+    let [_, friction, delay] = parameters.units();
+    let mut x = parameters.begin();
+    for (at, value) in [(4, model.friction[0] / friction), (5, model.friction[1] / friction), (6, model.delay / delay)]
+    {
+        x[at] = value;
+    }
+    let problem = Problem { lines, setting, parameters, transient: true };
+    let sizes: Vec<f64> = problem.errors(&x).iter().map(|[_, response]| response.norm()).collect();
+    (problem.weighted(&x, &sizes), problem.jacobian(&x, &sizes), sizes)
+}
+
 /// An estimate by so many rounds, and the variance of the torque's noise.
 fn once(thinned: &[Line], start: Model, setting: Setting, rounds: usize) -> Option<(Estimate, f64)> {
     let transient = setting.torque != Torque::Sine;

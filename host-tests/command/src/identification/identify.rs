@@ -1,6 +1,7 @@
 //! From a recording or a table to a machine.
 
 use super::cause::{instead, third};
+use super::contact::opens;
 use super::estimate::{Estimate, Setting, estimate};
 use super::model::{Motion, Torque};
 use super::refusal::{self, Refusal};
@@ -69,7 +70,9 @@ pub fn identify(recording: &Recording, torque_constant: Option<f64>) -> Result<I
     }
     let settings = [Torque::Smooth, Torque::Held].map(|torque| Setting { motion, torque, period: recording.period });
     let (estimate, setting) = estimate(&lines, start, &settings).ok_or_else(unrelated)?;
-    judged(Identified { estimate, setting, lines }, &carrying, fit.improvement)
+    let found = judged(Identified { estimate, setting, lines }, &carrying, fit.improvement)?;
+    let mean = torque.iter().sum::<f64>() / torque.len() as f64;
+    if opens(&all, mean, &found.estimate, setting) { Err(Refusal::Contact.into()) } else { Ok(found) }
 }
 
 /// What was identified, if it is of use and two masses explain it; `carriers` are all lines that carry torque.

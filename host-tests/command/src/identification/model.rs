@@ -115,6 +115,13 @@ impl Model {
         [twisted, (s * self.motor + self.friction[0]) * twisted + shaft * over]
     }
 
+    /// The motor's speed (rad/s) per radian by which the shaft's halves shift against each other, at `s`.
+    #[must_use]
+    pub fn speed_by_shift(&self, s: Complex<f64>) -> Complex<f64> {
+        let load = s * self.load + self.friction[1];
+        s * load * (s * self.damping + self.stiffness) / self.speed(s)[1]
+    }
+
     /// The motion per sample of the torque at a frequency (rad/s); samples are `period` (s) apart.
     #[must_use]
     pub fn response(&self, frequency: f64, motion: Motion, torque: Torque, period: f64) -> Complex<f64> {
