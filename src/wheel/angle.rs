@@ -1,8 +1,8 @@
 //! The angle between two teeth.
 
 use super::cycle::Record;
-use super::description::{ToothedWheelConfig, tooth};
-use super::state::{Stage, ToothedWheel};
+use super::description::{ToothedWheelConfig, next_place, tooth};
+use super::state::{Open, Stage, ToothedWheel};
 use crate::fault::Faults;
 
 /// Teeth in a row that may be without an edge.
@@ -23,7 +23,7 @@ impl<R: Record> ToothedWheel<R> {
     /// that has just turned once.
     ///
     /// # Errors
-    /// [`Faults::ANGLE_MISSING`] where the place is not known or a tooth is overdue by more than half a pitch.
+    /// [`Faults::ANGLE_MISSING`] where the place is not known or doubtful, or a tooth is overdue by more than half a pitch.
     pub fn at<const TEETH: usize>(
         &mut self,
         config: &ToothedWheelConfig<TEETH>,
@@ -32,7 +32,7 @@ impl<R: Record> ToothedWheel<R> {
         if self.stage != Stage::Known {
             return Err(Faults::ANGLE_MISSING);
         }
-        let next = if self.place as usize + 1 >= TEETH { 0 } else { self.place.wrapping_add(1) };
+        let next = next_place(config, self.place);
         let (Some(last), Some(next)) = (tooth(config, self.place), tooth(config, next)) else {
             return Err(Faults::ANGLE_MISSING);
         };
@@ -42,6 +42,9 @@ impl<R: Record> ToothedWheel<R> {
             if elapsed as u32 > due.saturating_mul(2 + SKIPPED) {
                 self.lose();
             }
+            return Err(Faults::ANGLE_MISSING);
+        }
+        if self.open != Open::Nothing {
             return Err(Faults::ANGLE_MISSING);
         }
         let scale = self.track.scale();

@@ -3,7 +3,7 @@
 use super::cycle::Record;
 use super::description::ToothedWheelConfig;
 use super::phase::Cam;
-use super::state::{Stage, ToothedWheel};
+use super::state::{Open, Stage, ToothedWheel};
 
 impl<R: Record> ToothedWheel<R> {
     /// An edge of the cam; to be called from the interrupt of its capture. The parts of the cycle in which the cam has
@@ -53,7 +53,10 @@ impl<R: Record> ToothedWheel<R> {
     pub fn index<const TEETH: usize>(&mut self, _config: &ToothedWheelConfig<TEETH>) {
         let last = (TEETH as u32).wrapping_sub(1);
         match self.cam.turns {
-            Some(turns) if self.place == last => self.cam.turns = Some(turns.saturating_add(1)),
+            Some(turns) if self.place == last => {
+                self.cam.turns = Some(turns.saturating_add(1));
+                self.open = Open::Nothing;
+            }
             _ if self.stage == Stage::Known => self.lose(),
             _ => {
                 self.cam.turns = Some(0);

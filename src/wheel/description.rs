@@ -39,6 +39,11 @@ pub(super) fn tooth<const TEETH: usize>(config: &ToothedWheelConfig<TEETH>, plac
     config.teeth.get(place as usize)
 }
 
+/// The place behind.
+pub(super) fn next_place<const TEETH: usize>(_: &ToothedWheelConfig<TEETH>, place: u32) -> u32 {
+    if place as usize + 1 >= TEETH { 0 } else { place.wrapping_add(1) }
+}
+
 /// The place before.
 pub(super) fn before_place<const TEETH: usize>(_: &ToothedWheelConfig<TEETH>, place: u32) -> u32 {
     place.checked_sub(1).unwrap_or((TEETH as u32).wrapping_sub(1))

@@ -19,6 +19,20 @@ pub enum Stage {
     Known,
 }
 
+/// What has to be seen again before the angle of a known place is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) enum Open {
+    /// Nothing.
+    Nothing,
+    /// One tooth, or two in a row, a quarter of a pitch at most from where and after how long they were expected: until
+    /// then a tooth without an edge may have been a slower speed.
+    Tooth,
+    Teeth,
+    /// The place, from intervals that exclude all others: the machine may have turned back, or the teeth contradict it.
+    Place,
+}
+
 /// A toothed wheel. Its angle is that of [`crate::settings::Teeth`]. `R` is what it records: nothing, or
 /// [`CycleTimes`].
 ///
@@ -47,7 +61,8 @@ pub struct ToothedWheel<R = ()> {
     pub(super) search: Search,
     pub(super) stage: Stage,
     pub(super) trust: u32,
-    /// The last tooth, and its number in the cycle.
+    pub(super) open: Open,
+    /// The last tooth, and its number in the cycle. While the place is not known, one more with each edge.
     pub(super) place: u32,
     pub(super) in_cycle: u32,
     pub(super) track: Track,
@@ -73,6 +88,7 @@ impl<R: Record + Default> Default for ToothedWheel<R> {
             search: Search::NEW,
             stage: Stage::Searching,
             trust: 0,
+            open: Open::Nothing,
             place: 0,
             in_cycle: 0,
             track: Track::NEW,
@@ -99,7 +115,7 @@ impl<R: Record> ToothedWheel<R> {
 
     /// Whether the place is known.
     pub fn stage(&self) -> Stage {
-        self.stage
+        if self.stage == Stage::Known && self.open == Open::Place { Stage::Checking } else { self.stage }
     }
 }
 

@@ -3,10 +3,10 @@
 use super::angle::SKIPPED;
 use super::check::Check;
 use super::cycle::Record;
-use super::description::{ToothedWheelConfig, before_place, tooth};
+use super::description::{Tooth, ToothedWheelConfig, before_place, next_place, tooth};
 use super::phase::Phase;
 use super::place::{Search, ratio};
-use super::state::{Stage, ToothedWheel};
+use super::state::{Open, Stage, ToothedWheel};
 use super::track::Track;
 
 /// Edges too many and teeth without an edge that lose the place, without a good turn between.
@@ -32,7 +32,7 @@ impl<R: Record> ToothedWheel<R> {
     pub fn tooth<const TEETH: usize>(&mut self, config: &ToothedWheelConfig<TEETH>, time: u32) {
         if self.stage != Stage::Searching {
             self.follow(config, time);
-            if self.stage == Stage::Searching || self.doubts == 0 {
+            if self.stage == Stage::Searching || self.doubts == 0 && self.open != Open::Place {
                 self.last = time;
                 return;
             }
@@ -50,6 +50,11 @@ impl<R: Record> ToothedWheel<R> {
         }
         self.last = time;
         self.interval = interval;
+        if self.stage == Stage::Searching {
+            self.place = next_place(config, self.place);
+            let fresh = self.search.intervals == 0;
+            self.track.pace = if fresh || interval < self.track.pace { interval } else { self.track.pace };
+        }
         if interval == 0 || interval >= config.slowest || before == 0 || before >= config.slowest {
             self.search = Search::NEW;
             return;
@@ -65,15 +70,22 @@ impl<R: Record> ToothedWheel<R> {
             return;
         }
         // A doubled edge looks like the tooth behind a gap: where the gap itself was not seen, the place is checked.
-        let familiar = self.trust > 0 && interval >= before;
+        let familiar = self.trust > 0 && interval >= before && config.sector > 1;
         if self.stage != Stage::Searching && !familiar {
             self.search = Search::NEW;
             return;
         }
+        // The sector that the wheel is in is not known from the ratios. Edges that were counted through a stall and
+        // agree with them exclude a machine that has turned back, and teeth without an edge that look like a gap; so
+        // does a speed that has not changed.
+        let agrees = self.place.checked_rem(config.sector) == Some(place);
         if self.stage != Stage::Searching {
-            // The sector that the wheel is in is not known from the ratios.
+            if agrees && self.open == Open::Place {
+                self.open = Open::Nothing;
+                return self.note(time);
+            }
             // A tooth without an edge looks like a gap, but is where it was expected.
-            if self.firm || self.place.checked_rem(config.sector) == Some(place) {
+            if agrees || self.firm && self.open != Open::Place {
                 return;
             }
             self.lose();
@@ -81,6 +93,8 @@ impl<R: Record> ToothedWheel<R> {
         let (Some(tooth), Some(last)) = (tooth(config, place), tooth(config, before_place(config, place))) else {
             return;
         };
+        // A machine that turns back slows down before the long interval.
+        let steady = before >> 1 <= self.track.pace && (agrees || self.is_due(config, time, tooth));
         self.last = time;
         self.interval = interval;
         self.place = place;
@@ -91,7 +105,8 @@ impl<R: Record> ToothedWheel<R> {
         self.span = tooth.span;
         self.track = Track::begin(interval, before, time, tooth, last);
         self.cam = Phase::NEW;
-        self.stage = if familiar { Stage::Known } else { Stage::Checking };
+        self.open = Open::Nothing;
+        self.stage = if familiar && steady { Stage::Known } else { Stage::Checking };
         self.note(time);
     }
 
@@ -110,16 +125,25 @@ impl<R: Record> ToothedWheel<R> {
                 }
             }
             let Some(tooth) = tooth(config, place) else { return };
-            passage = passage.wrapping_add(self.track.time_of(tooth.span));
+            let span = self.track.time_of(tooth.span);
+            passage = passage.wrapping_add(span);
             let error = time.wrapping_sub(passage) as i32;
             let half = self.track.time_of(tooth.slack) as i32;
-            let [early, late] = if known { self.track.window(half) } else { [half; 2] };
+            let [early, late] = if known { self.track.window(half, span) } else { [half; 2] };
             if error < early.wrapping_neg() {
                 // Between two teeth: a bounce within a quarter of a pitch of the last, or an edge too many.
                 let since = time.wrapping_sub(self.track.passage) as i32;
                 if !known || since >= half >> 1 {
                     (self.extra, self.firm) = (true, false);
+                    if !known {
+                        self.place = place;
+                    }
                     self.doubt(known, 1);
+                    // A pitch behind the tooth before a gap: there is none here.
+                    let regular = since.wrapping_sub(half << 1).unsigned_abs() <= half as u32 >> 1;
+                    if regular {
+                        self.reopen(Open::Place);
+                    }
                 }
                 return;
             }
@@ -128,6 +152,19 @@ impl<R: Record> ToothedWheel<R> {
                     break;
                 }
                 self.firm = !core::mem::take(&mut self.extra);
+                let quarter = half as u32 >> 1;
+                let ambiguous = error.unsigned_abs() > quarter;
+                if matches!(self.open, Open::Tooth | Open::Teeth) {
+                    let interval = time.wrapping_sub(self.last).wrapping_sub(span) as i32;
+                    let clear = self.firm && skipped == 0 && !ambiguous && interval.unsigned_abs() <= quarter;
+                    match self.open {
+                        Open::Teeth if ambiguous => self.reopen(Open::Place),
+                        Open::Teeth if clear => self.open = Open::Tooth,
+                        _ if clear => self.open = Open::Nothing,
+                        _ => {}
+                    }
+                }
+                let doubtful = ambiguous || self.track.error.unsigned_abs() > quarter;
                 self.place = place;
                 self.in_cycle = in_cycle;
                 self.track.correct(passage, error, tooth, config.slowest);
@@ -147,8 +184,19 @@ impl<R: Record> ToothedWheel<R> {
                 if known && self.good & FORGOTTEN == FORGOTTEN {
                     self.doubts = self.doubts.saturating_sub(1);
                 }
+                if self.track.has_slowed() {
+                    self.search = Search::NEW;
+                    self.reopen(Open::Place);
+                }
+                if !self.firm && ambiguous {
+                    self.reopen(Open::Place);
+                }
+                if error.unsigned_abs() > half as u32 {
+                    self.reopen(Open::Tooth);
+                }
                 if skipped != 0 {
                     self.doubt(known, skipped);
+                    self.reopen(if doubtful { Open::Place } else { Open::Teeth });
                 } else if self.good as usize >= TEETH {
                     self.doubts = 0;
                     if known {
@@ -156,10 +204,10 @@ impl<R: Record> ToothedWheel<R> {
                         self.trust = if self.trust < TRUST { self.trust.wrapping_add(1) } else { TRUST };
                     }
                     if !known && self.placed(config) {
-                        match self.check.verdict(self.good, const { fewest(TEETH as u32) }) {
+                        match self.check.verdict(self.good, fewest(TEETH as u32) >> u32::from(self.trust > 0)) {
                             None => {}
                             Some(true) => {
-                                self.trust = 1;
+                                self.trust = self.trust.max(1);
                                 self.stage = Stage::Known;
                             }
                             Some(false) => return self.lose(),
@@ -169,18 +217,41 @@ impl<R: Record> ToothedWheel<R> {
                 return self.note(time);
             }
         }
-        // Longer than for teeth without an edge: the machine has paused, and goes on from the next tooth.
-        if known {
-            let next = if self.place as usize + 1 >= TEETH { 0 } else { self.place.wrapping_add(1) };
-            let end = TEETH.wrapping_mul(config.turns as usize);
-            self.in_cycle = if self.in_cycle as usize + 1 >= end { 0 } else { self.in_cycle.wrapping_add(1) };
-            self.place = next;
-            self.track.passage = time;
-            self.firm = false;
-            self.doubt(known, 1 + SKIPPED);
-            return self.note(time);
+        // Longer than for teeth without an edge: the machine has paused. Where it had not slowed down before, it goes on
+        // from the next tooth; else it may have turned back.
+        let steady = known && self.open < Open::Place && self.track.is_steady();
+        self.place = next_place(config, self.place);
+        if !steady {
+            return self.lose();
         }
-        self.lose();
+        let end = TEETH.wrapping_mul(config.turns as usize);
+        self.in_cycle = if self.in_cycle as usize + 1 >= end { 0 } else { self.in_cycle.wrapping_add(1) };
+        self.track.passage = time;
+        self.firm = false;
+        self.doubt(known, 1 + SKIPPED);
+        self.reopen(Open::Teeth);
+        self.note(time);
+    }
+
+    /// Whether a place found while searching is where time and speed since the place was last known lead to.
+    fn is_due<const TEETH: usize>(&self, config: &ToothedWheelConfig<TEETH>, time: u32, found: &Tooth) -> bool {
+        let elapsed = time.wrapping_sub(self.track.passage);
+        let last = self.in_cycle.checked_rem(TEETH as u32).and_then(|last| tooth(config, last));
+        let (Some(last), true) = (last, self.track.turn != 0 && elapsed >> 1 < self.track.turn) else { return false };
+        let angle = last.angle.wrapping_add(self.track.scale().angle(elapsed as i32));
+        (angle.wrapping_sub(found.angle) as i32).unsigned_abs() <= found.slack
+    }
+
+    /// More has to be seen before the angle is given.
+    fn reopen(&mut self, open: Open) {
+        if self.open < open && self.stage == Stage::Known {
+            self.open = open;
+            if open == Open::Place {
+                self.search = Search::NEW;
+                self.cam.left = u32::MAX;
+                self.record.lost();
+            }
+        }
     }
 
     /// An edge too many, or teeth without one.
@@ -199,7 +270,7 @@ impl<R: Record> ToothedWheel<R> {
 
     /// Records the last tooth.
     fn note(&mut self, time: u32) {
-        if self.stage == Stage::Known {
+        if self.stage == Stage::Known && self.open != Open::Place {
             self.record.tooth(self.in_cycle, time);
         }
     }

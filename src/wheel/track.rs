@@ -23,17 +23,20 @@ pub(super) struct Track {
     pub passage: u32,
     /// Time of a turn (clock counts), smoothed; 0 for none.
     pub turn: u32,
+    /// The same, at the highest speed of late: it follows a slower one by 1/64 a tooth. While the place is not
+    /// known, the shortest interval.
+    pub pace: u32,
     /// Which of the gains.
     gain: u32,
     /// The last error, and the mean product of successive signs.
-    error: i32,
+    pub error: i32,
     product: i32,
     /// Mean size of the errors [2^-4 clock].
     size: u32,
 }
 
 impl Track {
-    pub const NEW: Track = Track { passage: 0, turn: 0, gain: 0, error: 0, product: 0, size: 0 };
+    pub const NEW: Track = Track { passage: 0, turn: 0, pace: 0, gain: 0, error: 0, product: 0, size: 0 };
 
     /// From the last two intervals, and the teeth that they ended at.
     pub fn begin(interval: u32, before: u32, time: u32, tooth: &Tooth, last: &Tooth) -> Track {
@@ -41,7 +44,7 @@ impl Track {
         let turn = (turn(interval, tooth) + turn(before, last)) / 2;
         let turn = turn as u32;
         // Until there are errors: a sixth of a pitch.
-        let begun = Track { passage: time, turn, gain: 1, ..Track::NEW };
+        let begun = Track { passage: time, turn, pace: turn, gain: 1, ..Track::NEW };
         Track { size: (begun.time_of(tooth.slack) / 3) << 4, ..begun }
     }
 
@@ -57,6 +60,8 @@ impl Track {
         let turn =
             i64::from(self.turn) + ((i64::from(error) * i64::from(of_span.wrapping_mul(tooth.spans as i32))) >> 20);
         self.turn = if turn > 0 && turn < i64::from(slowest) { turn as u32 } else { 0 };
+        let pace = self.pace.wrapping_add(self.pace >> 6);
+        self.pace = if self.turn < pace { self.turn } else { pace };
         self.size = self.size.wrapping_add(error.unsigned_abs()).wrapping_sub(self.size >> 4);
         if error != 0 && self.error != 0 {
             let sign = ((error ^ self.error) >> 31) | 1;
@@ -72,12 +77,25 @@ impl Track {
         self.error = error;
     }
 
-    /// By how much an edge may be early and late to be a tooth, from half a pitch (clock counts): five times
-    /// the errors' mean size, between 0.3 and 0.75 pitches. A late edge within half a pitch has no tooth nearer.
-    pub fn window(&self, half: i32) -> [i32; 2] {
-        let size = (self.size >> 4).saturating_mul(5).min(i32::MAX as u32) as i32;
+    /// Whether the speed has fallen to less than half of that of late. A machine that turns back has passed its last
+    /// tooth so slowly: under a constant torque from N pitches before, at most by 1/sqrt(2 N) of its speed there.
+    pub fn has_slowed(&self) -> bool {
+        self.turn >> 1 > self.pace
+    }
+
+    /// Whether the speed is within a quarter of that of late.
+    pub fn is_steady(&self) -> bool {
+        self.turn.wrapping_sub(self.turn >> 2) < self.pace
+    }
+
+    /// By how much an edge may be early and late to be a tooth, from half a pitch and the span's time (clock counts): five
+    /// times the errors' mean size, between 0.3 and 0.75 pitches; behind a gap twice as much, up to a quarter of its time.
+    /// A late edge within half a pitch has no tooth nearer.
+    pub fn window(&self, half: i32, span: u32) -> [i32; 2] {
+        let size = (self.size >> 4).saturating_mul(5).min(i32::MAX as u32 >> 1) as i32;
         let most = half.wrapping_add(half >> 1);
-        let early = size.min(most).max((half >> 1).wrapping_add(half >> 3));
+        let gap = (size << 1).min((span >> 2) as i32);
+        let early = size.min(most).max((half >> 1).wrapping_add(half >> 3)).max(gap);
         [early, early.max(half)]
     }
 
