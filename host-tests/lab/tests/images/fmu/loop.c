@@ -204,6 +204,16 @@ static void wrong_calls(const fmu *c, const fmu *p)
     flag = true;
     REQUIRE(c->set_bool(one, &variable, 1, &flag, 1) == OK && set(c, one, 4, 12) == OK);
     REQUIRE(step(c, one, 6 * STEP, STEP) == OK && get(c, one, 10) == 12);
+    REQUIRE(c->reset(one) == OK && c->enter(one, false, 0, 0, false, 0) == OK && c->leave(one) == OK);
+    /* a tick that does not run leaves the torque as it is; the one behind it is told (2^30) */
+    REQUIRE(set(c, one, 3, 10) == OK && step(c, one, 0, STEP) == OK && faults(c, one) == 0);
+    double before = get(c, one, 10);
+    variable = 6;
+    REQUIRE(c->set_bool(one, &variable, 1, &flag, 1) == OK && step(c, one, STEP, STEP) == OK);
+    REQUIRE(get(c, one, 10) == before && faults(c, one) == 0);
+    flag = false;
+    REQUIRE(c->set_bool(one, &variable, 1, &flag, 1) == OK && step(c, one, 2 * STEP, STEP) == OK);
+    REQUIRE(faults(c, one) == 1u << 30 && step(c, one, 3 * STEP, STEP) == OK && faults(c, one) == 0);
     REQUIRE(c->reset(one) == OK && c->enter(one, false, 0, 0, false, 0) == OK && set(c, one, 1, NAN) == OK);
     REFUSED(c->leave(one), "expected a finite angle");
     c->free_instance(one);
