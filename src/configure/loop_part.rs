@@ -1,7 +1,9 @@
 //! The parts of a drive in its speed loop, and the test of its stability.
 
 use super::{Configure, GainSource, Machine, Refusal};
-use crate::design::{Actuator, Averaging, GovernorDesign, LoopObserver, RigidDesign, SpeedLoopDesign, TwoMassDesign};
+use crate::design::{
+    Actuator, Averaging, GovernorDesign, LoopGears, LoopObserver, RigidDesign, SpeedLoopDesign, TwoMassDesign,
+};
 use crate::number::Number;
 
 /// A part in the speed loop, by what it brings to the loop's response.
@@ -22,6 +24,10 @@ pub struct LoopPart {
     pub acceleration: f64,
     /// Average of the speed.
     pub averaging: Averaging,
+    /// Friction per torque before the shaft that an observer deducts.
+    pub friction: f64,
+    /// Whether an observer deducts the losses behind the shaft.
+    pub losses_behind: bool,
 }
 
 impl LoopPart {
@@ -34,6 +40,8 @@ impl LoopPart {
         forward: 0.0,
         acceleration: 0.0,
         averaging: Averaging::None,
+        friction: 0.0,
+        losses_behind: false,
     };
 
     /// Two parts of a governor together.
@@ -49,6 +57,8 @@ impl LoopPart {
                 Averaging::None => other.averaging,
                 averaging => averaging,
             },
+            friction: self.friction + other.friction,
+            losses_behind: self.losses_behind || other.losses_behind,
         }
     }
 
@@ -66,7 +76,17 @@ impl LoopPart {
                 let LoopPart { forward: share, acceleration, averaging, .. } = *governor;
                 let design = GovernorDesign { share, acceleration, ..*design };
                 // a lag of the estimates counts where there is no observer
-                design.try_robust(&M::TWO_MASS, self.observer(), averaging, &M::ROBUSTNESS)
+                let tested = design.try_robust(&M::TWO_MASS, self.observer(), averaging, &M::ROBUSTNESS);
+                match (tested, self.observer()) {
+                    (Ok(()), Some(observer)) => self.gears::<M>().try_robust_governor(
+                        &M::TWO_MASS,
+                        observer,
+                        &design,
+                        averaging,
+                        &M::ROBUSTNESS,
+                    ),
+                    (tested, _) => tested,
+                }
             }
             None => Ok(()),
         };
@@ -74,6 +94,10 @@ impl LoopPart {
             Ok(()) => None,
             Err(error) => Some(error.message()),
         }
+    }
+
+    const fn gears<M: Machine>(&self) -> LoopGears {
+        LoopGears { losses: M::CHAIN.losses(), friction: self.friction, behind: self.losses_behind }
     }
 
     const fn observer(&self) -> Option<LoopObserver<'_>> {
@@ -105,7 +129,12 @@ impl LoopPart {
         let speed_loop = SpeedLoopDesign { damping: design.damping + governor.damping, ..*design };
         let Actuator { delay, lag } = M::ACTUATOR;
         let actuator = Actuator { delay: delay + late, lag };
-        match M::TWO_MASS.try_robust(observer, &speed_loop, actuator, &M::TOLERANCE, &M::ROBUSTNESS) {
+        let (machine, robustness) = (&M::TWO_MASS, &M::ROBUSTNESS);
+        let tested = match machine.try_robust(observer, &speed_loop, actuator, &M::TOLERANCE, robustness) {
+            Ok(()) => self.gears::<M>().try_robust(machine, observer, &speed_loop, actuator, robustness),
+            tested => tested,
+        };
+        match tested {
             Ok(()) => None,
             Err(error) => Some(error.message()),
         }

@@ -64,14 +64,14 @@ macro_rules! observers {
         impl<M: Machine, O: Configure<M, $number, Config: Copy>> Configure<M, $number> for GearedObserver<O> {
             type Config = GearedConfig<$number, O::Config>;
             const CONFIG: Self::Config = GearedConfig::<$number, _>::new(O::CONFIG, &M::GEAR, M::PERIOD, $bases);
-            const LOOP: LoopPart = O::LOOP;
+            const LOOP: LoopPart = LoopPart { friction: M::GEAR.friction(), ..O::LOOP };
             const NEEDS: Needs = O::NEEDS.with_losses();
         }
 
         impl<M: Machine, O: Configure<M, $number, Config: Copy>> Configure<M, $number> for LoadGearObserver<O> {
             type Config = LoadGearConfig<$number, O::Config>;
             const CONFIG: Self::Config = LoadGearConfig::<$number, _>::new(O::CONFIG, &M::LOAD_GEAR, M::PERIOD, $bases);
-            const LOOP: LoopPart = O::LOOP;
+            const LOOP: LoopPart = LoopPart { losses_behind: true, ..O::LOOP };
             const NEEDS: Needs = O::NEEDS;
         }
     };

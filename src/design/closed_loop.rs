@@ -4,7 +4,7 @@ use super::controller::Observer;
 use super::margins::{Margins, OpenLoop};
 use super::plant::Plant;
 use super::polynomial::Polynomial;
-use super::{Actuator, Error, PlacedObserver, RigidDesign, SpeedLoopDesign, TwoMassDesign};
+use super::{Actuator, Error, PlacedObserver, RigidDesign, Robustness, SpeedLoopDesign, TwoMassDesign};
 use crate::machine::TwoMass;
 use crate::math::{exp_m1, sin_cos, sqrt};
 
@@ -120,6 +120,21 @@ impl ClosedLoop {
     pub const fn is_stable(&self, plant: &Plant, gain: f64) -> bool {
         let (numerator, denominator) = self.open(plant);
         denominator.plus(gain, &numerator).is_stable()
+    }
+
+    /// Whether the loop has the required margins: stable with the gain at both ends of its margin, and with the phase
+    /// at its margin.
+    pub(super) const fn try_margins(&self, plant: &Plant, robustness: &Robustness) -> Result<(), Error> {
+        if !self.is_stable(plant, 1.0) {
+            return Err(Error::LoopUnstable);
+        }
+        if !(self.is_stable(plant, robustness.gain) && self.is_stable(plant, 1.0 / robustness.gain)) {
+            return Err(Error::LoopGain);
+        }
+        if !self.is_stable_turned(plant, robustness.phase) {
+            return Err(Error::LoopPhase);
+        }
+        Ok(())
     }
 
     /// The same for tests with many machines.

@@ -120,16 +120,7 @@ impl TwoMass {
             return Err(Error::Tolerance);
         }
         let [prompt, delayed] = get!(observer.close_within(speed_loop, actuator, tolerance));
-        let nominal = Plant::of(self);
-        if !prompt.is_stable(&nominal, 1.0) {
-            return Err(Error::LoopUnstable);
-        }
-        if !(prompt.is_stable(&nominal, robustness.gain) && prompt.is_stable(&nominal, 1.0 / robustness.gain)) {
-            return Err(Error::LoopGain);
-        }
-        if !prompt.is_stable_turned(&nominal, robustness.phase) {
-            return Err(Error::LoopPhase);
-        }
+        get!(prompt.try_margins(&Plant::of(self), robustness));
         let loops = [prompt.mapped(), delayed.mapped()];
         if !self.is_stable_within(tolerance, &loops, speed_loop.period) {
             return Err(self.cause(tolerance, &loops, speed_loop.period));
@@ -139,6 +130,20 @@ impl TwoMass {
         } else {
             Err(Error::LoopUndescribed)
         }
+    }
+
+    /// Whether a speed loop on this machine, with its observer in it, has the required margins.
+    ///
+    /// # Errors
+    /// [`Error::LoopUnstable`], [`Error::LoopGain`], [`Error::LoopPhase`], and those of [`ClosedLoop::of`].
+    pub const fn try_margins(
+        &self,
+        observer: LoopObserver<'_>,
+        speed_loop: &SpeedLoopDesign,
+        actuator: Actuator,
+        robustness: &Robustness,
+    ) -> Result<(), Error> {
+        get!(observer.close(speed_loop, actuator)).try_margins(&Plant::of(self), robustness)
     }
 
     /// Whether these loops are stable, with their gain at both ends of its margin, with the resonance that the

@@ -5,9 +5,9 @@ use std::fmt;
 
 use driveline::configure::Rating;
 use driveline::design::{
-    Actuator, Disturbance, Encoder, Error, LoadCycle, LoopObserver, ObserverChoice, ObserverSelection, Operation,
-    Plant, PredictedErrors, Rate, Requirement, RigidDesign, Robustness, SpeedLoopDesign, SpeedLoopTuning, Spread,
-    StepChoice, Tolerance, TwoMassDesign,
+    Actuator, Disturbance, Encoder, Error, LoadCycle, LoopGears, LoopObserver, ObserverChoice, ObserverSelection,
+    Operation, Plant, PredictedErrors, Rate, Requirement, RigidDesign, Robustness, SpeedLoopDesign, SpeedLoopTuning,
+    Spread, StepChoice, Tolerance, TwoMassDesign,
 };
 use driveline::machine::{Losses, Match, Speed, Torque, TwoMass};
 use driveline::number::Fixed;
@@ -356,6 +356,10 @@ impl MachineFile {
     ) -> Result<Option<Lack>, Error> {
         let closed = observer.close(speed_loop, self.actuator())?;
         let robust = two.try_robust(observer, speed_loop, self.actuator(), &self.tolerance(), &Robustness::USUAL);
+        let gears =
+            LoopGears { losses: self.chain.losses(), friction: self.gears([1.0; 2], 0.0).0.friction(), behind: true };
+        let robust =
+            robust.and_then(|()| gears.try_robust(two, observer, speed_loop, self.actuator(), &Robustness::USUAL));
         let plant = Plant::of_modes(two.total_inertia(), &self.modes());
         let mut neglected = (!closed.is_stable(&plant, 1.0)).then_some(Lack::NEGLECTED);
         // the rings of dampers and branches may swing within the loop's bandwidth
