@@ -51,7 +51,7 @@ pub fn free(machine: &MachineFile) -> Option<FreeForces> {
     let middle = positions.sum::<f64>() / engine.cylinders.len() as f64;
     let order = |order: u32, unit: f64| {
         // the rounding of a sum that is none, of forces of 1 and arms of a few metres
-        let exact = |size: f64| if size < 1e-12 { 0.0 } else { unit * size };
+        let exact = |size: f64| if size < 1e-12 { 0.0 } else { unit.abs() * size };
         let parts = |shaking: Shaking| [shaking.forward, shaking.backward].map(|[x, y]| exact(f64::hypot(x, y)));
         let force = free_forces(&engine.cylinders, order);
         let [force_forward, force_backward] = parts(force);
