@@ -36,8 +36,8 @@ pub fn all<B: Board, N: Ranked + Summed + 'static>(bench: &mut Bench<'_, B>, bas
     part::<B, N, (Extremes<N>, Waveform<BINS, N>)>(bench, "fluctuation/both", (cycle, waveform));
     part::<B, N, CycleMean<4, N>>(bench, "fluctuation/cycle-mean", mean);
     // A block every turn, so that its end is among the calls.
-    let mesh = GearMeshConfig::new(23, &[Sideband::MESH, Sideband::of_motor(1)], 1);
-    part::<B, N, GearMesh<2, 9>>(bench, "fluctuation/gear-mesh", mesh);
+    const MESH: GearMeshConfig<2> = GearMeshConfig::new(23, &[Sideband::MESH, Sideband::of_motor(1)], 1);
+    part::<B, N, GearMesh<2, 9>>(bench, "fluctuation/gear-mesh", MESH);
 }
 
 fn part<B: Board, N: Number, F: Fluctuation<N>>(bench: &mut Bench<'_, B>, name: &str, config: F::Config) {
