@@ -10,10 +10,9 @@
 //! | schedule | [`LoadAndRope`] | [`HasLoadAndRope`](crate::configure::HasLoadAndRope) |
 //! | learners | [`Learners`] | [`Machine::LEARNING`] for their bounds |
 //!
-//! [`Learners`] find the friction of a [`GearedObserver`](crate::observer::GearedObserver), and the eccentricity with an
-//! [`EccentricityObserver`](crate::learning::EccentricityObserver) in the drive. While a load is named they find the
-//! motor's torque constant, its offset and its inertia too. They pause by themselves: while the brake holds, after a
-//! fault, after ticks that did not run, and while the axis is tripped.
+//! [`Learners`] find the friction of a [`GearedObserver`], and the eccentricity with an [`EccentricityObserver`] in the
+//! drive. While a load is named they find the motor's torque constant, its offset and its inertia too. They pause by
+//! themselves: while the brake holds, after a fault, after ticks that did not run, and while the axis is tripped.
 
 mod adjust;
 mod composition;

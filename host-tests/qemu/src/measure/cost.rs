@@ -142,6 +142,7 @@ pub const BENCHES: &[&str] = &[
     "bench/fluctuation/waveform",
     "bench/fluctuation/both",
     "bench/fluctuation/cycle-mean",
+    "bench/fluctuation/gear-mesh",
     "bench/governor/core",
     "bench/governor/whole",
     "bench/telemetry/record",
