@@ -17,10 +17,10 @@ use crate::math::sqrt;
 /// J_m w_m' = tau - b T,  J_l w_l' = h T - tau_l
 /// ```
 ///
-/// is a machine without losses of the stiffness b k, the damping b d and the load inertia b/h J_l. Motoring, b is one over
-/// the efficiency before the shaft, h the efficiency behind it; overhauling, b is the first, and h one over the second.
-/// An observer that deducts the friction is one for such a machine too, with b = 1 + lambda or 1 - lambda. So a loop has
-/// its margins with losses where it has them round these two machines.
+/// is a machine without losses of the stiffness b k, the damping b d and the load inertia b/h J_l. Motoring, b is one
+/// over the efficiency before the shaft, h the efficiency behind it; overhauling, b is the first, and h one over the
+/// second. An observer that deducts the friction is one for such a machine too, with b = 1 + lambda or 1 - lambda. So a
+/// loop has its margins with losses where it has them round these two machines.
 ///
 /// The observer takes the friction from the shaft torque of the last tick, here from that of the tick itself.
 ///
@@ -30,7 +30,8 @@ use crate::math::sqrt;
 /// use driveline::machine::Losses;
 /// let observer = LoopObserver::TwoMass(&Roll::OBSERVER);
 /// let bears = |share: f64, friction: f64| {
-///     let gears = LoopGears { losses: Losses { before: [share, 2.0 - 1.0 / share], behind: [1.0; 2] }, friction, behind: false };
+///     let losses = Losses { before: [share, 2.0 - 1.0 / share], behind: [1.0; 2] };
+///     let gears = LoopGears { losses, friction, behind: false };
 ///     gears.try_robust(&Roll::TWO_MASS, observer, &Roll::SPEED_LOOP, Actuator::DIRECT, &Robustness::USUAL).is_ok()
 /// };
 /// // a gear that loses 3 %, whose observer knows it; one that loses half, unknown to it
@@ -41,8 +42,9 @@ use crate::math::sqrt;
 pub struct LoopGears {
     /// The efficiencies.
     pub losses: Losses,
-    /// Friction per torque before the shaft that the observer deducts, [`Gear::friction`](crate::settings::Gear::friction);
-    /// zero without a [`GearedObserver`](crate::observer::GearedObserver).
+    /// Friction per torque before the shaft that the observer deducts,
+    /// [`Gear::friction`](crate::settings::Gear::friction); zero without a
+    /// [`GearedObserver`](crate::observer::GearedObserver).
     pub friction: f64,
     /// Whether it deducts the losses behind the shaft, as a [`LoadGearObserver`](crate::observer::LoadGearObserver).
     pub behind: bool,
@@ -51,11 +53,9 @@ pub struct LoopGears {
 /// Machine and observer while power flows one way: torque on the motor per torque of the shaft, torque on the load per
 /// torque of the shaft.
 #[derive(Clone, Copy)]
-pub(crate) struct Flow {
+struct Flow {
     machine: [f64; 2],
     observer: [f64; 2],
-    /// Torques that the governor takes over those of the observer.
-    taken: f64,
 }
 
 impl LoopGears {
@@ -63,7 +63,7 @@ impl LoopGears {
     pub const NONE: Self = Self { losses: Losses { before: [1.0; 2], behind: [1.0; 2] }, friction: 0.0, behind: false };
 
     /// The motor driving, and the load, unless a gear locks.
-    pub(crate) const fn flows(&self) -> [Option<Flow>; 2] {
+    const fn flows(&self) -> [Option<Flow>; 2] {
         let Losses { before: [to_shaft, from_shaft], behind: [to_load, from_load] } = self.losses;
         if to_shaft == 1.0 && from_shaft == 1.0 && to_load == 1.0 && from_load == 1.0 {
             return [None, None];
@@ -77,11 +77,7 @@ impl LoopGears {
     }
 
     const fn flow(&self, motor: f64, load: f64, found: f64) -> Flow {
-        Flow {
-            machine: [motor, load],
-            observer: [found, if self.behind { load } else { 1.0 }],
-            taken: sqrt(1.0 - self.friction * self.friction),
-        }
+        Flow { machine: [motor, load], observer: [found, if self.behind { load } else { 1.0 }] }
     }
 
     /// Whether a speed loop with its observer has the required margins round these two masses, whichever way power
@@ -98,20 +94,13 @@ impl LoopGears {
         actuator: Actuator,
         robustness: &Robustness,
     ) -> Result<(), Error> {
-        let mut flows: &[Option<Flow>] = &self.flows();
-        while let [flow, rest @ ..] = flows {
-            if let Some(flow) = flow {
-                let seen = flow.observer(observer, machine.load_inertia / machine.total_inertia());
-                let machine = &lossless(machine, flow.machine);
-                get!(match seen {
-                    Seen::Two(observer) =>
-                        machine.try_margins(LoopObserver::Placed(&observer), speed_loop, actuator, robustness),
-                    Seen::One(observer) =>
-                        machine.try_margins(LoopObserver::Rigid(&observer), speed_loop, actuator, robustness),
-                });
+        let flows = self.flows();
+        each!(way, 0..flows.len(), {
+            if let Some(flow) = &flows[way] {
+                let (machine, seen) = flow.round(machine, observer);
+                get!(machine.try_margins(seen.observer(), speed_loop, actuator, robustness));
             }
-            flows = rest;
-        }
+        });
         Ok(())
     }
 
@@ -127,26 +116,17 @@ impl LoopGears {
         averaging: Averaging,
         robustness: &Robustness,
     ) -> Result<(), Error> {
-        let mut flows: &[Option<Flow>] = &self.flows();
-        while let [flow, rest @ ..] = flows {
-            if let Some(flow) = flow {
-                let seen = flow.observer(observer, machine.load_inertia / machine.total_inertia());
-                let machine = &lossless(machine, flow.machine);
-                let taken = flow.taken * flow.observer[1] / flow.observer[0];
-                let design = GovernorDesign {
-                    share: taken * design.share,
-                    acceleration: taken * design.acceleration,
-                    ..*design
-                };
-                get!(match seen {
-                    Seen::Two(observer) =>
-                        design.try_robust(machine, Some(LoopObserver::Placed(&observer)), averaging, robustness),
-                    Seen::One(observer) =>
-                        design.try_robust(machine, Some(LoopObserver::Rigid(&observer)), averaging, robustness),
-                });
+        let flows = self.flows();
+        each!(way, 0..flows.len(), {
+            if let Some(flow) = &flows[way] {
+                let (machine, seen) = flow.round(machine, observer);
+                // torques that the governor takes over those of the observer
+                let taken = sqrt(1.0 - self.friction * self.friction) * flow.observer[1] / flow.observer[0];
+                let (share, acceleration) = (taken * design.share, taken * design.acceleration);
+                let design = GovernorDesign { share, acceleration, ..*design };
+                get!(design.try_robust(&machine, Some(seen.observer()), averaging, robustness));
             }
-            flows = rest;
-        }
+        });
         Ok(())
     }
 }
@@ -155,6 +135,15 @@ impl LoopGears {
 enum Seen {
     Two(PlacedObserver),
     One(RigidDesign),
+}
+
+impl Seen {
+    const fn observer(&self) -> LoopObserver<'_> {
+        match self {
+            Seen::Two(observer) => LoopObserver::Placed(observer),
+            Seen::One(observer) => LoopObserver::Rigid(observer),
+        }
+    }
 }
 
 /// The machine without losses that moves as one with them.
@@ -168,6 +157,12 @@ const fn lossless(machine: &TwoMass, [motor, load]: [f64; 2]) -> TwoMass {
 }
 
 impl Flow {
+    /// The machine without losses, and the observer round it.
+    const fn round(&self, machine: &TwoMass, observer: LoopObserver<'_>) -> (TwoMass, Seen) {
+        let share = machine.load_inertia / machine.total_inertia();
+        (lossless(machine, self.machine), self.observer(observer, share))
+    }
+
     /// The observer for the machine that moves as its own with the losses that it deducts: the load torque in its unit.
     /// One mass gives the load's share of its inertia to the shaft.
     const fn observer(&self, observer: LoopObserver<'_>, share: f64) -> Seen {
