@@ -131,8 +131,9 @@ pub struct Adaptive<M, D: Composition, S: Part<D::Number> = (), L: Part<D::Numbe
     machine: PhantomData<fn() -> M>,
 }
 
-/// The drive of the hoist `M` in the number `N`, which follows load and rope over `LOADS` loads and `ROPES` lengths, and
-/// learns its machine. The ramp's setpoint lags by the loop's own time constant, so that a ramp leaves less of a swing.
+/// The drive of the hoist `M` in the number `N`, which follows load and rope over `LOADS` loads and `ROPES` lengths,
+/// and learns its machine. The ramp's setpoint lags by the loop's own time constant, so that a ramp leaves less of a
+/// swing.
 pub type HoistDrive<M, N, const LOADS: usize, const ROPES: usize> = Adaptive<
     M,
     Drive<N, EccentricityObserver<GearedObserver<SemiImplicitObserver>>, SpeedLoop<SetpointLag>>,

@@ -74,9 +74,9 @@ impl Rating {
         )
     }
 
-    /// A gap taken up gently: six tenths of rated torque in it, and three times rated torque within a period of the shaft,
-    /// which is as much as its swing allows; twice as fast it falls. An impact may add twice rated torque. The damping is
-    /// that of a motor that outweighs its load five times.
+    /// A gap taken up gently: six tenths of rated torque in it, and three times rated torque within a period of the
+    /// shaft, which is as much as its swing allows; twice as fast it falls. An impact may add twice rated torque. The
+    /// damping is that of a motor that outweighs its load five times.
     ///
     /// Nothing observes the load's speed through an open gap: braked twice as much, a motor of 1.1 times the inertia
     /// swings through it for ever.
@@ -243,8 +243,8 @@ pub trait Machine {
     const RAMP: f64 = Self::RATING.ramp(Self::CHAIN.total_inertia());
     /// Source of the composed governor's gains: the speed loop.
     const GAINS: GainSource = GainSource::SpeedLoop(Self::SPEED_LOOP);
-    /// Fraction of rated speed by which a [`Droop`](crate::governor::Droop) lowers the setpoint at rated torque: 4 %, as
-    /// is usual for sets on one grid.
+    /// Fraction of rated speed by which a [`Droop`](crate::governor::Droop) lowers the setpoint at rated torque: 4 %,
+    /// as is usual for sets on one grid.
     const DROOP: f64 = 0.04;
     /// Tuning of the [`BacklashTakeUp`](crate::governor::BacklashTakeUp), for a gap or a slack rope:
     /// [`Rating::taking_up`].

@@ -9,8 +9,9 @@ use crate::math::sqrt;
 ///
 /// The loop of a point must have the margins of [`Machine::ROBUSTNESS`](super::Machine::ROBUSTNESS) there. It must be
 /// stable with every machine up to half way to the neighbouring points, by inertia of the load and stiffness in equal
-/// ratios, within [`Machine::TOLERANCE`](super::Machine::TOLERANCE) of motor inertia, torque and delay. The margins hold
-/// with the gears' losses too, which the observer knows. For a test on the host: it takes as long as a drive's own at each point.
+/// ratios, within [`Machine::TOLERANCE`](super::Machine::TOLERANCE) of motor inertia, torque and delay. The margins
+/// hold with the gears' losses too, which the observer knows. For a test on the host: it takes as long as a drive's own
+/// at each point.
 ///
 /// It gives the largest error of the semi-implicit step over a period of the resonance; above
 /// [`StepChoice::THRESHOLD`](crate::design::StepChoice::THRESHOLD) the schedule needs `TwoMassObserver`.

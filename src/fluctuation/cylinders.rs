@@ -7,8 +7,8 @@
 //!
 //! The torque is that which accelerates the inertia, `d/dphi (J omega^2/2)`, with a crankshaft that is rigid at the orders
 //! used. Behind an elastic coupling (k, d) the load J_l swings by itself: at the frequency w of an order, J is
-//! `J_e + J_l (k + j w d)/(k - J_l w^2 + j w d)` \[derived\]. `P` is that of a combustion torque `x e^(-x/a)` behind the
-//! dead centre, with its largest value at the angle `a`: `1/(1 + j k a)^2` at the k-th order of a turn.
+//! `J_e + J_l (k + j w d)/(k - J_l w^2 + j w d)` \[derived\]. `P` is that of a combustion torque `x e^(-x/a)` behind
+//! the dead centre, with its largest value at the angle `a`: `1/(1 + j k a)^2` at the k-th order of a turn.
 
 use core::f64::consts::TAU;
 

@@ -1,8 +1,8 @@
 //! A gear's health: amplitude and phase of the tooth mesh and of its sidebands, from the motor's encoder.
 //!
 //! Errors of the teeth swing the motor at the order of its teeth; an eccentric wheel, a bent shaft or one bad tooth
-//! modulates that swing, which puts sidebands beside it, a turn of their shaft apart. Wear raises the first, a fault the
-//! others, over weeks. So one order is measured at a time, by turns, at the cost of one.
+//! modulates that swing, which puts sidebands beside it, a turn of their shaft apart. Wear raises the first, a fault
+//! the others, over weeks. So one order is measured at a time, by turns, at the cost of one.
 
 use super::Fluctuation;
 use crate::angle::{Passed, RotorAngle, RotorAngleConfig, Synchronous};
@@ -56,7 +56,7 @@ sentences! {
     GearMeshError:
     Teeth => "a mesh must have 1 to 500 teeth on the motor's shaft",
     Sideband => "a sideband must lie above zero and below 15 times the mesh, its motor turns times the teeth 1 to 2^20",
-    Turns => "a block of a gear's mesh must have 1 to 300 turns of the motor, and these whole turns of the sideband's shaft",
+    Turns => "a block of a gear's mesh must have 1 to 300 turns of the motor, and these whole turns of the shaft",
 }
 
 /// The constants of a line.
@@ -153,13 +153,13 @@ struct Edge {
 /// `EDGES - 1` blocks.
 ///
 /// A tick adds `e^{-i p theta}`, p the periods on a turn, in integers. That samples the time that the motor spends at
-/// each angle: over whole turns a sum of n ticks grows to `-i p X n/2`, X the phasor of the motor's angle \[derived\]. An
-/// encoder's rounding, which stands in it once, averages out; a product of two rounded angles would keep a part of it.
-/// Where a block ends between two ticks the sum is corrected to the integral by Euler and Maclaurin's formula.
+/// each angle: over whole turns a sum of n ticks grows to `-i p X n/2`, X the phasor of the motor's angle \[derived\].
+/// An encoder's rounding, which stands in it once, averages out; a product of two rounded angles would keep a part of
+/// it. Where a block ends between two ticks the sum is corrected to the integral by Euler and Maclaurin's formula.
 ///
 /// The motor turns forwards, a period of the mesh has eight ticks at least, and ticks and counts have no common
-/// period. The amplitude is that of the motor's own swing, which its inertia and the gear's stiffness set: compare it at
-/// one speed and load with what it was, as by a record in flash (feature `parameters`).
+/// period. The amplitude is that of the motor's own swing, which its inertia and the gear's stiffness set: compare it
+/// at one speed and load with what it was, as by a record in flash (feature `parameters`).
 ///
 /// ```
 /// use driveline::fluctuation::{Fluctuation, GearMesh, GearMeshConfig, Sideband};
@@ -244,8 +244,8 @@ impl<N: Number, const LINES: usize, const EDGES: usize> Fluctuation<N> for GearM
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct MeshReading {
-    /// The motor's angle (rad) swings by `Re(X e^{i p theta})`, theta the encoder's angle, p the periods on a turn. A line
-    /// whose periods are not whole has no phase, since a turn has no mark for it.
+    /// The motor's angle (rad) swings by `Re(X e^{i p theta})`, theta the encoder's angle, p the periods on a turn. A
+    /// line whose periods are not whole has no phase, since a turn has no mark for it.
     pub phasor: Phasor,
     /// Standard deviation of the phasor by the blocks' differences (rad).
     pub deviation: f32,
@@ -276,7 +276,8 @@ impl<const LINES: usize, const EDGES: usize> GearMesh<LINES, EDGES> {
         }
     }
 
-    /// A finished reading and its line, and begins that of the next; the first call begins the first. Between two ticks.
+    /// A finished reading and its line, and begins that of the next; the first call begins the first. Between two
+    /// ticks.
     ///
     /// # Errors
     /// [`ReadingFault`]: why this reading cannot be used.

@@ -89,7 +89,8 @@ impl Chain {
         if rise(&self.loads) { self } else { self.refuse(Error::HoistingRange) }
     }
 
-    /// Lengths of the rope (m), as given by [`lengths`](Self::lengths): the shortest, that of its stiffness, the longest.
+    /// Lengths of the rope (m), as given by [`lengths`](Self::lengths): the shortest, that of its stiffness, the
+    /// longest.
     #[must_use]
     pub const fn lengths_of_rope(&self) -> [f64; 3] {
         self.lengths

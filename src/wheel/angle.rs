@@ -23,7 +23,8 @@ impl<R: Record> ToothedWheel<R> {
     /// that has just turned once.
     ///
     /// # Errors
-    /// [`Faults::ANGLE_MISSING`] where the place is not known or doubtful, or a tooth is overdue by more than half a pitch.
+    /// [`Faults::ANGLE_MISSING`] where the place is not known or doubtful, or a tooth is overdue by more than half a
+    /// pitch.
     pub fn at<const TEETH: usize>(
         &mut self,
         config: &ToothedWheelConfig<TEETH>,

@@ -217,8 +217,8 @@ impl<R: Record> ToothedWheel<R> {
                 return self.note(time);
             }
         }
-        // Longer than for teeth without an edge: the machine has paused. Where it had not slowed down before, it goes on
-        // from the next tooth; else it may have turned back.
+        // Longer than for teeth without an edge: the machine has paused. Where it had not slowed down before, it goes
+        // on from the next tooth; else it may have turned back.
         let steady = known && self.open < Open::Place && self.track.is_steady();
         self.place = next_place(config, self.place);
         if !steady {

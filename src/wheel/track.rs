@@ -88,9 +88,9 @@ impl Track {
         self.turn.wrapping_sub(self.turn >> 2) < self.pace
     }
 
-    /// By how much an edge may be early and late to be a tooth, from half a pitch and the span's time (clock counts): five
-    /// times the errors' mean size, between 0.3 and 0.75 pitches; behind a gap twice as much, up to a quarter of its time.
-    /// A late edge within half a pitch has no tooth nearer.
+    /// By how much an edge may be early and late to be a tooth, from half a pitch and the span's time (clock counts):
+    /// five times the errors' mean size, between 0.3 and 0.75 pitches; behind a gap twice as much, up to a quarter of
+    /// its time. A late edge within half a pitch has no tooth nearer.
     pub fn window(&self, half: i32, span: u32) -> [i32; 2] {
         let size = (self.size >> 4).saturating_mul(5).min(i32::MAX as u32 >> 1) as i32;
         let most = half.wrapping_add(half >> 1);

@@ -144,13 +144,13 @@ fn the_observer_is_in_the_loop_of_a_composed_governor() {
 }
 
 /// Gears with losses are in the loop, known to the observer or not. Gain and phase (degrees) at which a loop turns
-/// unstable are the lesser ones of both ways of the power, by the eigenvalues of machine, gear, observer and governor in
-/// states of their own, in numpy, of drawn loops. All have 6 dB and 30 degrees without losses. The bounds are 4 % and 1.5
-/// degrees: the observer takes the friction from its last tick there, and not here.
+/// unstable are the lesser ones of both ways of the power, by the eigenvalues of machine, gear, observer and governor
+/// in states of their own, in numpy, of drawn loops. All have 6 dB and 30 degrees without losses. The bounds are 4 %
+/// and 1.5 degrees: the observer takes the friction from its last tick there, and not here.
 #[test]
 fn gears_with_losses_are_in_the_loop() {
-    // inertias, stiffness, damping; ticks a second, lines; rated torque at once, within; efficiencies while the motor and
-    // while the load drives, whether the observer knows the first; lag; bandwidth, damping, damping of the shaft
+    // inertias, stiffness, damping; ticks a second, lines; rated torque at once, within; efficiencies while the motor
+    // and while the load drives, whether the observer knows the first; lag; bandwidth, damping, damping of the shaft
     type Loop = ([f64; 4], u32, u32, [f64; 2], [f64; 2], bool, f64, [f64; 3], [f64; 2]);
     let loops: [Loop; 4] = [
         (

@@ -106,7 +106,8 @@ impl Machine for SkipOnRope {
     const SCREENING: Screening =
         Screening { torque: Self::RATING.torque_limit.0 + 1.05 * BRAKE_TORQUE, ..SkipWinch::SCREENING };
     /// While the rope is slack, rated torque holds the drum to the skip's speed, also against the brake. A tight rope's
-    /// torque rises by as much within a period of the swing, which is damped as far as the observer's lag allows with 6 dB.
+    /// torque rises by as much within a period of the swing, which is damped as far as the observer's lag allows with 6
+    /// dB.
     const TAKING_UP: BacklashTakeUpTuning = BacklashTakeUpTuning {
         impact: 0.2 * Self::RATING.torque.0,
         torque: Self::RATING.torque.0,

@@ -14,8 +14,8 @@ const COUNTS: f64 = 8192.0;
 /// A line: periods on a turn, amplitude (rad), phase (rad).
 type Line = (f64, f64, f64);
 
-/// The encoder's angle (2^-32 turn) where the motor would be at a number of turns if it did not swing. The swing hangs on
-/// where it is, as that of teeth does.
+/// The encoder's angle (2^-32 turn) where the motor would be at a number of turns if it did not swing. The swing hangs
+/// on where it is, as that of teeth does.
 fn encoder(turns: f64, lines: &[Line]) -> u32 {
     let swing = |at: f64| -> f64 {
         lines.iter().map(|(periods, amplitude, phase)| amplitude * (TAU * periods * at + phase).cos()).sum()
@@ -47,10 +47,10 @@ fn read<const K: usize>(
     found
 }
 
-/// Fifty gears: teeth, errors and sidebands of both shafts; three speeds, three loads, which swing the motor once and six
-/// times a turn. The encoder rounds by 0.29 counts of 767 urad; over the 68,000 ticks of the shortest reading that is 1.2
-/// urad, and the smallest line has 40. Of the stated deviations, by eight blocks each, two hold the error in 95 of 100:
-/// here in 180 of 200 at least.
+/// Fifty gears: teeth, errors and sidebands of both shafts; three speeds, three loads, which swing the motor once and
+/// six times a turn. The encoder rounds by 0.29 counts of 767 urad; over the 68,000 ticks of the shortest reading that
+/// is 1.2 urad, and the smallest line has 40. Of the stated deviations, by eight blocks each, two hold the error in 95
+/// of 100: here in 180 of 200 at least.
 #[test]
 fn lines_are_right_to_a_tenth() {
     let mut noise = Noise::new(4);

@@ -203,8 +203,8 @@ fn a_lost_place_begins_the_window_anew() {
     let ripple = window.ripple(&config, &ToothErrors::NONE, 4).unwrap();
     // a count in a turn of 60,000
     assert!((ripple.mean / (TAU * CLOCK / 60_000.0) - 1.0).abs() < 2e-5, "{ripple:?}");
-    // The gap before turn 10 is passed at another speed, so that the cycle before it has no sure end. Turn 10 has no end,
-    // and the gap at the end of turn 10 or 11 finds the place again.
+    // The gap before turn 10 is passed at another speed, so that the cycle before it has no sure end. Turn 10 has no
+    // end, and the gap at the end of turn 10 or 11 finds the place again.
     assert!(most >= 7 && (7..=9).contains(&ripple.cycles), "{most} cycles, then {ripple:?}");
     assert_eq!((ripple.quality.missed, ripple.acceleration), (0, 0.0));
 }

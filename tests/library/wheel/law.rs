@@ -168,8 +168,8 @@ fn right<const TEETH: usize>(teeth: &Teeth<TEETH>, noise: f64, random: &mut Rand
 }
 
 /// 400 right descriptions behind stalls and reversals: what is believed has excluded all other places. With a jitter of
-/// up to 5 %, and up to 1 % of the edges lost and as many doubled, two defects within a few teeth can look like a place:
-/// fewer than one in 200 ticks.
+/// up to 5 %, and up to 1 % of the edges lost and as many doubled, two defects within a few teeth can look like a
+/// place: fewer than one in 200 ticks.
 #[test]
 fn no_right_description_is_at_a_wrong_place() {
     let mut random = Random(1);

@@ -30,8 +30,8 @@ pub struct Rigid {
     pub friction: f64,
 }
 
-/// What the record shows instead of two masses, where that can be told; else why two masses are refused. `improvement` is
-/// the ratio of variances without the first guess' resonance and with it.
+/// What the record shows instead of two masses, where that can be told; else why two masses are refused. `improvement`
+/// is the ratio of variances without the first guess' resonance and with it.
 #[must_use]
 pub fn instead(refusal: Refusal, carriers: &[Line], motion: Motion, improvement: f64) -> Refusal {
     let strongest = carriers.iter().map(|line| line.torque.norm_sqr()).fold(0.0, f64::max);

@@ -7,8 +7,8 @@ use super::estimate::{Estimate, Setting, slopes};
 use super::model::{Motion, Torque};
 use super::spectrum::Line;
 
-/// Correlation of what two masses leave unexplained with the motion by a gap, from which there is one. Of sixty machines
-/// that other programs simulated, those without have at most 0.3, those with one at least 0.5.
+/// Correlation of what two masses leave unexplained with the motion by a gap, from which there is one. Of sixty
+/// machines that other programs simulated, those without have at most 0.3, those with one at least 0.5.
 const LEAST: f64 = 0.4;
 /// Torque of the shaft, over its rms, within which it changes sides.
 const SIDE: f64 = 0.1;

@@ -172,7 +172,8 @@ const BELOW: f64 = 5.0;
 /// Figures that are too vague, or no machine's.
 pub fn figures(estimate: &Estimate) -> Result<(), Refusal> {
     let Estimate { model, figures, unexplained, misfit, condition, band, .. } = estimate;
-    // a swing that grows or is none, a dead time of a quarter of the resonance's period, or what two masses do not explain
+    // a swing that grows or is none, a dead time of a quarter of the resonance's period, or what two masses do not
+    // explain
     let is_machine = (-0.01..1.0).contains(&model.damping_ratio()) && model.delay.abs() * model.resonance() < 1.5;
     if !(is_machine && *unexplained < UNEXPLAINED && *misfit < MISFIT) {
         return Err(Refusal::Contact);

@@ -319,7 +319,8 @@ impl MachineFile {
         self.encoder_of(rms(Factor::Interpolation), rms(Factor::Eccentricity), rms(Factor::Jitter))
     }
 
-    /// Acceleration of the speed's setpoint (rad/s2), with this inertia at the motor: that of the file, or of the rating.
+    /// Acceleration of the speed's setpoint (rad/s2), with this inertia at the motor: that of the file, or of the
+    /// rating.
     pub fn ramp(&self, inertia: f64) -> f64 {
         self.ramp.unwrap_or_else(|| self.rating().ramp(inertia))
     }
