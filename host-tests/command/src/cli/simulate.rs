@@ -154,6 +154,16 @@ fn tables(simulation: &Simulation) -> Vec<Section> {
     if !simulation.links.is_empty() {
         all.insert(0, Section::new("Forces", text, forces));
     }
+    if !simulation.frictions.is_empty() {
+        let slid = if simulation.turns { "rad" } else { "rad or m" };
+        let mut heat = Table::new(["friction".to_owned(), of("slid", slid), of("heat", "J"), of("power", "W")]);
+        for friction in &simulation.frictions {
+            let numbers = [friction.slid, friction.heat, friction.power].map(significant);
+            heat.row([friction.name.clone()].into_iter().chain(numbers));
+        }
+        let text = "Torque times the way to and fro, as the lines of the run show it; power, the most over a line.";
+        all.push(Section::new("Dry friction", text, heat));
+    }
     if let Some(cycle) = &simulation.cycle {
         let mut steady = Table::new([
             "coordinate".to_owned(),

@@ -226,6 +226,12 @@ impl<'a> Table<'a> {
         Ok(rows)
     }
 
+    /// Two numbers.
+    pub fn pair(&mut self, key: &'static str, quantity: Quantity) -> Result<[f64; 2], Diagnostic> {
+        let numbers = self.numbers(key, quantity)?;
+        numbers.try_into().map_err(|_| self.wrong(key, format!("two numbers, each {quantity}")))
+    }
+
     /// A list of numbers, each of a quantity.
     ///
     /// # Errors

@@ -50,16 +50,16 @@
 //! `lever`, `stiffness_y`, `stiffness_x`, (`damping_y`, `damping_x`); a mesh as a link has it |
 //! | `[[link]]` | `name`, `stiffness`, and `between` with (`ratio`), or `ground`, or `terms` as `[[share, ...]]` in
 //! the order of `of`; (`damping`, `gap`, `rope`, `efficiency`, `back_efficiency`, `elongation`, `static`) |
-//! | `[link.spur]` | `frequency` Hz, `contact_ratio`, `double`, `single` N/m, (`leaving` N/m, `error`, `next_error` m)
-//! |
+//! | `[link.spur]` | `frequency` Hz, `contact_ratio`, `double`, `single` N/m or `face_width` m, `tooth_numbers`,
+//! (`shift`), (`leaving` N/m, `error`, `next_error` m) |
 //! | `[link.teeth]` | as `spur`, by the angle of the coordinate `of` with `count` teeth, instead of the frequency |
 //! | `[link.harmonics]` | `frequency` Hz, (`stiffness`, `error`) as rows of order, cosine, sine |
 //! | `[[friction]]` | `on` or `between`, `torque`, (`breakaway`, `surface`) |
 //! | `[[torque]]` | `on`, `kind` and its keys: `constant` `torque`; `line` `stall` `slope`; `parabola` `a` `b` `c`;
 //! `kloss` `breakdown` `slip` `synchronous`; `shunt` and `series` `voltage` `resistance` `flux`; `combustion`
 //! `combustion_type` `rated_torque` `rated_speed` `idle` `no_load`; `starting` `torque` `time` `power`; `steps` and
-//! `table` `points`; `triangle`, `square`, `sawtooth up`, `sawtooth down`, `rectified` `height` `period` `terms`; `arc`
-//! `torque` `from` `to` (`turns`); `stroke` `force` (`from` `to`); `orders` `harmonics` |
+//! `table` `points`; `triangle`, `square`, `sawtooth`, `sawtooth up`, `sawtooth down`, `rectified` `height` `period`
+//! `terms`, `pulses` with `width`; `arc` `torque` `from` `to` (`turns`); `stroke` `force` (`from` `to`); `orders` `harmonics` |
 //! | `[start]` | `kind`: `rest`, `slack`, or `pretensioned` with `held` |
 //! | `[run]` | `time` s, `step` s, a whole number of which is the time, (`cycle`, `cycle_turns`, `starting` with
 //! `starting_speed`); `modes` does without it |

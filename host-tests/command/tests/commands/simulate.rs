@@ -875,3 +875,65 @@ fn the_tables_have_the_units_that_the_file_leaves_open() {
     let own = headings(file.to_str().unwrap());
     assert!(own.contains("least N m or N ") && own.contains("least rad or m ") && own.contains("least rad/s or m/s "));
 }
+
+/// A clutch between two masses slips until they turn alike: the energy lost is `J1 J2/(J1 + J2) (w1 - w2)^2/2`, the way
+/// `(w1 - w2)^2/(2 T (1/J1 + 1/J2))`.
+#[test]
+fn the_heat_of_a_slip_clutch_is_the_energy_that_is_lost() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("clutch.toml");
+    for k in 0..20 {
+        let [one, other, torque] = [0.1 * 1.4_f64.powi(k), 20.0 / 1.3_f64.powi(k), 3.0 * 1.2_f64.powi(k)];
+        let [fast, slow] = [100.0 - f64::from(k), f64::from(k % 3) - 1.0];
+        let (reduced, slip) = (one * other / (one + other), fast - slow);
+        let time = 1.25 * reduced * slip / torque;
+        let text = format!(
+            "name = \"clutch\"\n[[coordinate]]\nname = \"motor\"\ninertia = {one:?}\nspeed = {fast:?}\n\
+             [[coordinate]]\nname = \"load\"\ninertia = {other:?}\nspeed = {slow:?}\n\
+             [[friction]]\nbetween = [\"motor\", \"load\"]\ntorque = {torque:?}\n\
+             [run]\ntime = {time:?}\nstep = {:?}\n",
+            time / 50.0
+        );
+        std::fs::write(&file, text).unwrap();
+        let output = simulate(&[file.to_str().unwrap(), "--json"]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let clutch = &found["frictions"][0];
+        assert_eq!(clutch["name"], "motor on load");
+        let close = |key: &str, expected: f64, within: f64| {
+            let found = clutch[key].as_f64().unwrap();
+            assert!((found - expected).abs() <= within * expected, "machine {k}, {key}: {found} {expected}");
+        };
+        // rounding of the angles; the slip ends at a line of the run
+        close("heat", 0.5 * reduced * slip * slip, 1e-11);
+        close("slid", 0.5 * reduced * slip * slip / torque, 1e-11);
+        // over the first fiftieth the slip falls by a fortieth
+        close("power", torque * slip * (1.0 - 0.5 / 40.0), 1e-11);
+    }
+}
+
+/// By fractions from the constants of the standard, which itself gives about 14 N/(mm um) for a pair.
+#[test]
+fn the_mesh_of_tooth_data_is_that_of_the_standard() {
+    let mesh = |keys: &str| {
+        let text = std::fs::read_to_string(machine("torques")).unwrap();
+        text.replace("face_width = 0.03\ntooth_numbers = [21, 50]\n\n", &format!("{keys}\n"))
+    };
+    let read = |text: &str| parse_train("torques", text).map(|file| format!("{:?}", file.train));
+    for (data, pair) in [
+        ("tooth_numbers = [21, 50]", 13.379394553726314),
+        ("tooth_numbers = [17, 103]\nshift = [0.4, -0.1]", 14.574087341789637),
+    ] {
+        let data = mesh(&format!("face_width = 1.0\n{data}\n"));
+        let lines: Vec<String> = read(&data).unwrap().split("single: ").map(str::to_owned).collect();
+        let single: f64 = lines[1].split(',').next().unwrap().parse().unwrap();
+        let double: f64 = lines[0].rsplit("double: ").next().unwrap().split(',').next().unwrap().parse().unwrap();
+        assert!((single / (1e9 * pair) - 1.0).abs() < 1e-14, "{single} {pair}");
+        // 0.75 x 1.6 + 0.25 of one pair in the mean, two of them in contact for 0.6 of the mesh
+        assert!(((0.6 * double + 0.4 * single) / single - 1.45).abs() < 1e-14, "{double} {single}");
+    }
+    for wrong in ["shift = [0.1, 0.4]", "shift = [-0.4, -0.5]", "shift = [0.1]", "double = 1e8"] {
+        let fault = read(&mesh(&format!("face_width = 1.0\ntooth_numbers = [21, 50]\n{wrong}\n"))).unwrap_err();
+        assert_eq!(fault.key.rsplit('.').next(), wrong.split(' ').next(), "{fault:?}");
+    }
+}

@@ -1,14 +1,14 @@
 //! Dynamic factors that `modes` prints, against an integration of one's own.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::process::Command;
 
 /// Largest change of the shaft's torque of an undamped vibration at 1 rad/s under a torque of time, by Runge-Kutta of
 /// order four; the fourth power of a step of 1/2000 period is below 1e-10.
 fn factor(torque: impl Fn(f64) -> f64, time: f64) -> f64 {
     let (h, mut x, mut v, mut most) = (TAU / 2000.0, 0.0_f64, 0.0_f64, 0.0_f64);
-    // steps end where the torque ends; the amplitude after it is that of the state there
-    let steps = (time / h).ceil();
+    // steps end where the torque ends, and in the middle; the amplitude after it is that of the state there
+    let steps = 2.0 * (0.5 * time / h).ceil();
     let h = time / steps;
     for step in 0..steps as u32 {
         let t = h * f64::from(step);
@@ -61,6 +61,8 @@ fn starts_are_those_of_an_integration() {
             let within = |value: f64, t: f64| if t <= time { value } else { 0.0 };
             close(&row["ramp"], factor(|t| (t / time).min(1.0), time));
             close(&row["pulse"], factor(|t| within(1.0, t), time));
+            close(&row["half_sine"], factor(|t| within((PI * t / time).sin(), t), time));
+            close(&row["triangle"], factor(|t| within(1.0 - (2.0 * t / time - 1.0).abs(), t), time));
             close(&row["soft"], factor(|t| within(1.0 - t / time, t), time));
             close(&row["medium"], factor(|t| within(1.0 - (t / time).powi(2), t), time));
         }

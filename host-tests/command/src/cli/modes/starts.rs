@@ -1,6 +1,6 @@
-//! Dynamic factors of the starts of a machine, of its two masses with the first mode, undamped.
+//! Dynamic factors of starts and pulses of a machine, of its two masses with the first mode, undamped.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use driveline::machine::{Match, StartingLaw, Torque, TwoMass};
 use driveline_report::format::significant;
@@ -37,6 +37,10 @@ pub struct Factors {
     pub ramp: f64,
     /// Constant torque that ends.
     pub pulse: f64,
+    /// Half a sine, of its peak.
+    pub half_sine: f64,
+    /// Triangle with its peak in the middle, of that.
+    pub triangle: f64,
     /// `1 - t/T`, of the torque at the start.
     pub soft: f64,
     /// `1 - t^2/T^2`.
@@ -53,6 +57,8 @@ pub fn starts(machine: &MachineFile) -> Option<Starts> {
             time,
             ramp: two.ramp_factor(time),
             pulse: two.pulse_factor(time),
+            half_sine: half_sine(TAU * periods),
+            triangle: triangle(TAU * periods),
             soft: two.law_factor(&StartingLaw::Soft { torque: limit, time }),
             medium: two.law_factor(&StartingLaw::Medium { torque: limit, time }),
         }
@@ -65,6 +71,33 @@ pub fn starts(machine: &MachineFile) -> Option<Starts> {
     })
 }
 
+/// The largest swing of a vibration at 1 rad/s under half a sine of height 1 that lasts for `a` (s) `[derived]`: during
+/// it `(sin pt - p sin t)/(1 - p^2)`, p = pi/a, with peaks of `sin pt/(1 - p)` at 2 pi k/(1 + p) and of
+/// `sin pt/(1 + p)` at 2 pi k/(1 - p); after it `2 p cos(a/2)/(1 - p^2)`.
+fn half_sine(a: f64) -> f64 {
+    let p = PI / a;
+    let left = if (p - 1.0).abs() < 1e-6 { 0.5 * PI } else { (2.0 * p * (0.5 * a).cos() / (1.0 - p * p)).abs() };
+    let peaks = |sum: f64, over: f64| {
+        let times = (1..).map(move |k| TAU * f64::from(k) / sum).take_while(|time| *time < a);
+        times.map(move |time| (p * time).sin() / over).fold(0.0, f64::max)
+    };
+    if p < 1.0 - 1e-6 { left.max(peaks(1.0 + p, 1.0 - p)).max(peaks(1.0 - p, 1.0 + p)) } else { left }
+}
+
+/// The same of a triangle with its peak in the middle `[derived]`: up to it `2 (t - sin t)/a`, which rises; from h = a/2
+/// on less twice the same from there, with extremes where `2 cos(t - h) - cos t = 1`; after it `8 sin^2(a/4)/a`.
+fn triangle(a: f64) -> f64 {
+    let half = 0.5 * a;
+    let ramp = |t: f64| t - t.sin();
+    let at = |t: f64| (2.0 / a * (ramp(t) - 2.0 * ramp(t - half))).abs();
+    let (cosine, sine) = (2.0 * half.cos() - 1.0, 2.0 * half.sin());
+    let (middle, aside) = (sine.atan2(cosine), (1.0 / cosine.hypot(sine)).min(1.0).acos());
+    let turns = (a / TAU).ceil() as i32;
+    let zeros = (-1..=turns).flat_map(|k| [middle - aside, middle + aside].map(|t| t + TAU * f64::from(k)));
+    let during = zeros.filter(|t| (half..a).contains(t)).map(at).fold(at(half), f64::max);
+    during.max(8.0 * (0.25 * a).sin().powi(2) / a)
+}
+
 fn reversal(two: &TwoMass, limit: f64) -> f64 {
     let before = two.accelerating_torque(Torque(limit), Torque(0.0));
     two.reversal_torque(before, Torque(-limit), Torque(0.0)).0
@@ -72,10 +105,11 @@ fn reversal(two: &TwoMass, limit: f64) -> f64 {
 
 /// The table of the factors.
 pub fn table(starts: &Starts) -> Section {
-    let headings = ["start within s", "even rise", "pulse", "soft, 1 - t/T", "medium, 1 - t²/T²"];
+    let headings = ["within s", "even rise", "pulse", "half sine", "triangle", "soft, 1 - t/T", "medium, 1 - t²/T²"];
     let mut table = Table::new(headings);
     for row in &starts.factors {
-        table.row([row.time, row.ramp, row.pulse, row.soft, row.medium].map(significant));
+        let factors = [row.time, row.ramp, row.pulse, row.half_sine, row.triangle, row.soft, row.medium];
+        table.row(factors.map(significant));
     }
     let slew: Vec<_> =
         starts.slew.iter().map(|&[factor, slew]| format!("{} for {factor}", significant(slew))).collect();
@@ -87,5 +121,5 @@ pub fn table(starts: &Starts) -> Section {
         slew.join(", "),
         significant(starts.reversal)
     );
-    Section::new("Dynamic factors of starts", text, table)
+    Section::new("Dynamic factors of starts and pulses", text, table)
 }

@@ -36,6 +36,8 @@ pub struct Simulation {
     pub coordinates: Vec<Moved>,
     /// Extremes of the forces.
     pub links: Vec<Carried>,
+    /// What the dry frictions slid, and their heat.
+    pub frictions: Vec<Rubbed>,
     /// The event.
     pub events: Vec<Happened>,
     /// Deviation of the second integrator as a share of the peaks, and of the solver with events located ten times
@@ -147,6 +149,19 @@ pub struct Carried {
     pub contacts: usize,
 }
 
+/// How far a dry friction slid: a brake, a slip clutch between two coordinates.
+#[derive(Clone, Debug, Serialize)]
+pub struct Rubbed {
+    /// Its coordinates by name.
+    pub name: String,
+    /// To and fro (rad or m).
+    pub slid: f64,
+    /// Heat (J): its torque times that.
+    pub heat: f64,
+    /// Largest power (W), the mean over a step of the run.
+    pub power: f64,
+}
+
 /// An event.
 #[derive(Clone, Debug, Serialize)]
 pub struct Happened {
@@ -192,6 +207,13 @@ impl Simulation {
         signals.iter().copied().chain(extremes_alone).for_each(|signal| start.watch(signal));
         let mut times = vec![0.0];
         let mut rows: Vec<Vec<f64>> = start.read_all(&signals).into_iter().map(|value| vec![value]).collect();
+        let mut rubbed: Vec<(Rubbed, f64)> = start
+            .slides()
+            .map(|(at, _, along)| {
+                let names: Vec<_> = at.into_iter().map(|at| file.coordinates[at].as_str()).collect();
+                (Rubbed { name: names.join(" on "), slid: 0.0, heat: 0.0, power: 0.0 }, along)
+            })
+            .collect();
         let mut run = Recording::new(start);
         // a stiff train's step is divided, so that the bar moves within it
         let looks = (file.motion.rate() * file.step / BETWEEN_LOOKS).ceil().max(1.0) as u64;
@@ -223,6 +245,13 @@ impl Simulation {
                     "more than a thousand events in the step that ends at {at} s{last}: the run cannot be resolved; \
                      expected damping or friction that ends them"
                 )));
+            }
+            for ((rubbed, before), (_, torque, along)) in rubbed.iter_mut().zip(motion.slides()) {
+                let slid = (along - *before).abs();
+                *before = along;
+                rubbed.slid += slid;
+                rubbed.heat += torque * slid;
+                rubbed.power = rubbed.power.max(torque * slid / file.step);
             }
             let values = motion.read_all(&signals);
             if let Some((signal, value)) = signals.iter().zip(&values).find(|(_, value)| !(value.abs() < OVERFLOW)) {
@@ -322,6 +351,7 @@ impl Simulation {
             time: motion.time(),
             coordinates: (0..n).map(moved).collect(),
             links: (0..links).map(carried).collect(),
+            frictions: rubbed.into_iter().map(|(rubbed, _)| rubbed).filter(|rubbed| rubbed.heat > 0.0).collect(),
             events: motion.events().iter().map(|event| happened(file, event)).collect(),
             proof: proof.map(|proof| (proof.integrator.largest, proof.tightened.map(|tightened| tightened.largest))),
             sensitive: proof.and_then(|proof| proof.sensitive).map(Pieces::from),

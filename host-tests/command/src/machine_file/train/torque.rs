@@ -12,7 +12,8 @@ use crate::machine_file::table::Table;
 
 const KINDS: &str = "\"constant\", \"line\", \"parabola\", \"kloss\", \"shunt\", \"series\", \
                      \"combustion\", \"starting\", \"steps\", \"table\", \"triangle\", \"square\", \
-                     \"sawtooth up\", \"sawtooth down\", \"rectified\", \"arc\", \"stroke\" or \"orders\"";
+                     \"sawtooth\", \"sawtooth up\", \"sawtooth down\", \"pulses\", \"rectified\", \"arc\", \
+                     \"stroke\" or \"orders\"";
 
 const ENGINES: &str = "\"spark\", \"indirect injection\" or \"direct injection\"";
 
@@ -64,13 +65,21 @@ impl Reading {
                 }
                 Source::Program(if kind == "steps" { LoadProgram::steps(&points) } else { LoadProgram::table(&points) })
             }
-            "triangle" | "square" | "sawtooth up" | "sawtooth down" | "rectified" => {
+            "triangle" | "square" | "sawtooth" | "sawtooth up" | "sawtooth down" | "pulses" | "rectified" => {
                 let height = any(&mut table, "height")?;
                 let period = table.number("period", Quantity::TIME)?;
                 let terms = table.number("terms", Quantity::TERMS)? as usize;
                 Source::Waveform(match kind {
                     "triangle" => Waveform::triangle(height, period, terms),
                     "square" => Waveform::square(height, period, terms),
+                    "sawtooth" => Waveform::sawtooth(height, period, terms),
+                    "pulses" => {
+                        let width = table.number("width", Quantity::TIME)?;
+                        if width >= period {
+                            return Err(table.wrong("width", "less than the period"));
+                        }
+                        Waveform::pulses(height, width, period, terms)
+                    }
                     "sawtooth up" => Waveform::sawtooth_up(height, period, terms),
                     "sawtooth down" => Waveform::sawtooth_down(height, period, terms),
                     _ => Waveform::rectified(height, period, terms),

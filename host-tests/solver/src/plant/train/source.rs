@@ -132,6 +132,20 @@ impl Waveform {
         Self::new(period, 0.5 * height, terms, |n| (0.0, height / (PI * n)))
     }
 
+    /// A sawtooth from `-amplitude` to `amplitude`, zero and rising at time zero.
+    #[must_use]
+    pub fn sawtooth(amplitude: f64, period: f64, terms: usize) -> Self {
+        let sign = |n: f64| if n % 2.0 == 1.0 { 1.0 } else { -1.0 };
+        Self::new(period, 0.0, terms, |n| (0.0, sign(n) * 2.0 * amplitude / (PI * n)))
+    }
+
+    /// Pulses of `height` that last `width` (s), less than the period, one about time zero.
+    #[must_use]
+    pub fn pulses(height: f64, width: f64, period: f64, terms: usize) -> Self {
+        let share = width / period;
+        Self::new(period, share * height, terms, |n| (2.0 * height / (PI * n) * (PI * n * share).sin(), 0.0))
+    }
+
     /// `height |sin(pi t/period)|`: a train of rectified half waves, one to the period.
     #[must_use]
     pub fn rectified(height: f64, period: f64, terms: usize) -> Self {
@@ -346,6 +360,11 @@ mod tests {
         near(&Waveform::square(2.0, 4.0, n), 3.0, -2.0);
         near(&Waveform::sawtooth_up(3.0, 3.0, n), 1.0, 1.0);
         near(&Waveform::sawtooth_down(3.0, 3.0, n), 1.0, 2.0);
+        near(&Waveform::sawtooth(2.0, 4.0, n), 1.0, 1.0);
+        near(&Waveform::sawtooth(2.0, 4.0, n), 3.0, -1.0);
+        near(&Waveform::pulses(2.0, 1.0, 4.0, n), 0.0, 2.0);
+        near(&Waveform::pulses(2.0, 1.0, 4.0, n), 3.75, 2.0);
+        near(&Waveform::pulses(2.0, 1.0, 4.0, n), 2.0, 0.0);
         near(&Waveform::rectified(3.0, 3.0, n), 1.5, 3.0);
         near(&Waveform::rectified(3.0, 3.0, n), 0.5, 1.5);
     }

@@ -93,6 +93,8 @@ fn an_oscillator_follows_every_waveform_harmonic_by_harmonic() {
         Waveform::square(20.0, period, 15),
         Waveform::sawtooth_up(20.0, period, 15),
         Waveform::sawtooth_down(20.0, period, 15),
+        Waveform::sawtooth(20.0, period, 15),
+        Waveform::pulses(20.0, 0.13, period, 15),
         Waveform::rectified(20.0, period, 15),
     ];
     for wave in waves {
