@@ -12,8 +12,8 @@
 //! depend on others. [`Influence::modal`] balances a flexible rotor by its modes, in N or N + 2 planes.
 //!
 //! [`RigidUnbalance`] is the static and the couple unbalance of a rigid rotor; [`two_planes`] separates the planes of a
-//! balancing machine. [`Holes`] splits a weight between holes and stock weights, [`Tolerance`] grades the residual
-//! unbalance (ISO 21940-11), [`from_amplitudes`] needs no phase. [`Procedure`] leads through the runs, rejects
+//! balancing machine. [`Holes`] splits a weight between holes and stock weights, [`BalanceTolerance`] grades the
+//! residual unbalance (ISO 21940-11), [`from_amplitudes`] needs no phase. [`Procedure`] leads through the runs, rejects
 //! impossible entries, and resumes after a power cut from a record; with the feature `parameters` the record is kept in
 //! flash. [`BalancingTask`] does without trial runs, by a [`BalancingHead`] while the machine turns, and by itself;
 //! [`InRun`] is its rule for the moves. Take [`Procedure`] for weights that are fitted by hand between runs,
@@ -102,7 +102,7 @@ pub use phasor::Phasors;
 pub use procedure::{CORRECTIONS, Plan, Procedure, ProcedureStep, Run};
 pub use reading::{Phasor, PhasorsConfig, Reading, ReadingFault, Steadiness};
 #[cfg(all(feature = "balancing", feature = "parameters"))]
-pub use record::Record;
+pub use record::ProcedureRecord;
 #[cfg(feature = "balancing")]
 pub use rigid::{RigidUnbalance, one_plane_suffices};
 #[cfg(feature = "balancing")]
@@ -111,7 +111,7 @@ pub use sensor::{Motion, Sensor, SensorError};
 #[cfg(feature = "balancing")]
 pub use task::{BalancingDesign, BalancingDesignError, BalancingFault, BalancingState, BalancingTask, Look};
 #[cfg(feature = "balancing")]
-pub use tolerance::{GRADES, Tolerance, Verdict, resultant, two_planes};
+pub use tolerance::{BalanceTolerance, GRADES, Verdict, resultant, two_planes};
 
 /// A measurement of the rotor's unbalance, advanced once a tick.
 ///

@@ -80,15 +80,15 @@ mod window;
 
 pub use bin::{Bin, Summed, WaveformConfig};
 pub use cycle_mean::{CycleMean, CycleMeanConfig};
-pub use cylinders::{Coupling, Cylinder, CylinderVerdict, Engine};
-pub use extremes::{Extreme, Extremes, Fluctuations, Ranked, Reading, SpeedErrors};
+pub use cylinders::{Coupling, CylinderReading, CylinderVerdict, Engine};
+pub use extremes::{CycleReading, Extreme, Extremes, Fluctuations, Ranked, SpeedErrors};
 pub use flywheel::{Balance, Flywheel, MachineClass, Remedy};
 pub use gear_mesh::{GearMesh, GearMeshConfig, GearMeshError, MeshReading, Sideband};
 pub use interleaved::Interleaved;
 pub use load_side::{Drivetrain, LoadSide};
 pub use position::{CycleConfig, Edge};
 pub use quality::{Quality, Unusable};
-pub use series::{Order, Series};
+pub use series::{FourierSeries, Order};
 pub use teeth::{ToothErrors, ToothWindow};
 pub(crate) use waveform::PLACES;
 pub use waveform::Waveform;

@@ -20,7 +20,7 @@ mod run_up;
 mod steady;
 mod torque_constant;
 
-pub use eccentricity::{Correction, EccentricityConfig, EccentricityObserver};
+pub use eccentricity::{EccentricityConfig, EccentricityNumber, EccentricityObserver};
 pub use gear_loss::{GearLoss, GearLossConfig};
 pub use mechanism::{LearntMechanism, MechanismFit};
 pub use record::{LearningBounds, Learnt};

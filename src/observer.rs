@@ -85,7 +85,7 @@ mod semi_implicit;
 mod two_mass;
 
 pub use angle::{AngleTracker, Prediction};
-pub use backlash::{BacklashConfig, BacklashObserver, Contact, Correction, FreeFlight, Gap};
+pub use backlash::{BacklashConfig, BacklashObserver, Contact, FreeFlight, Gap, GapCorrection};
 pub use force_limit::ForceLimitConfig;
 pub use geared::{GearFriction, GearedConfig, GearedObserver, Stiction};
 pub use load_gear::{LoadGearConfig, LoadGearObserver};

@@ -5,9 +5,10 @@ use crate::balancing::Phasors;
 use crate::fatigue::Rainflow;
 use crate::fluctuation::*;
 use crate::governor::*;
+use crate::learning::{EccentricityNumber, EccentricityObserver};
 use crate::number::Part;
 use crate::observer::*;
-use crate::{angle, configure, learning};
+use crate::{angle, configure};
 
 /// Rows of a part, its state in the number `N`, and what the number must be; generic arguments of the part before it.
 macro_rules! parts {
@@ -58,5 +59,5 @@ parts! {
     [const TOOLS: usize] MechanismObserver<f32, TOOLS>, MechanismObserver<N, TOOLS>;
     [O: Part<N>] GearedObserver<O>, GearedObserver<O::State>;
     [O: Part<N>] LoadGearObserver<O>, LoadGearObserver<O::State>;
-    [O: Part<N>] learning::EccentricityObserver<O>, learning::EccentricityObserver<O::State, N>, learning::Correction;
+    [O: Part<N>] EccentricityObserver<O>, EccentricityObserver<O::State, N>, EccentricityNumber;
 }

@@ -21,7 +21,7 @@ mod load_mass;
 mod rope_length;
 mod shaper_slots;
 
-pub use grid::{Axis, Schedule};
+pub use grid::{Breakpoints, Schedule};
 pub use load_mass::{LoadMass, LoadMassConfig};
 pub use rope_length::RopeLength;
 pub use shaper_slots::ShaperSlots;

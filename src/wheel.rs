@@ -47,8 +47,8 @@ mod track;
 
 pub use angle::{SKIPPED, WheelAngle};
 pub(crate) use cycle::LOST;
-pub use cycle::{CycleTimes, Record, ToothCycle};
+pub use cycle::{CycleTimes, ToothCycle, ToothRecord};
 pub use description::{Tooth, ToothedWheelConfig};
 pub use phase::Cam;
 pub(crate) use place::{MOST, RATIOS, ratio_of};
-pub use state::{Stage, ToothedWheel};
+pub use state::{Synchronization, ToothedWheel};

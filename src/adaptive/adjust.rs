@@ -1,6 +1,6 @@
 //! What learners change in an observer and its constants.
 
-use crate::learning::{Correction, EccentricityConfig, EccentricityObserver};
+use crate::learning::{EccentricityConfig, EccentricityNumber, EccentricityObserver};
 use crate::number::{Magnitude, Number};
 use crate::observer::{
     GearFriction, GearedConfig, GearedObserver, LoadGearConfig, LoadGearObserver, SemiImplicitConfig,
@@ -78,7 +78,7 @@ pub(crate) trait HasEccentricity {
 impl<N> HasEccentricity for SemiImplicitObserver<N> {}
 impl<N> HasEccentricity for TwoMassObserver<N> {}
 
-impl<O, N: Correction> HasEccentricity for EccentricityObserver<O, N> {
+impl<O, N: EccentricityNumber> HasEccentricity for EccentricityObserver<O, N> {
     fn learn_eccentricity(&mut self, config: &EccentricityConfig, speed: f32) {
         self.learn(config, speed);
     }

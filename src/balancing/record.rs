@@ -12,10 +12,10 @@ use crate::parameters::Parameters;
 /// needed. In front of them are words of the firmware's own, as the run-out that its readings are less.
 ///
 /// ```
-/// use driveline::balancing::{Complex, Plan, Procedure, Record, Run};
+/// use driveline::balancing::{Complex, Plan, Procedure, ProcedureRecord, Run};
 #[doc = include_str!("../parameters/flash.txt")]
 /// type Field = Procedure<f32, 2, 2>;
-/// type Kept = Record<{ Field::words(2, 2) }>;
+/// type Kept = ProcedureRecord<{ Field::words(2, 2) }>;
 /// let plan = Plan::usual(2, 2, 1e-4);
 /// let mut field = Field::new(plan)?;
 /// let mut store = driveline::parameters::Store::new(&mut flash, 0..4096)?;
@@ -32,9 +32,9 @@ use crate::parameters::Parameters;
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 // Not logged: the complex numbers of `nalgebra` have no `Format`.
-pub struct Record<const WORDS: usize>(Vec<u32, WORDS>);
+pub struct ProcedureRecord<const WORDS: usize>(Vec<u32, WORDS>);
 
-impl<const WORDS: usize> Record<WORDS> {
+impl<const WORDS: usize> ProcedureRecord<WORDS> {
     /// Of a procedure as it is, with words of the firmware's own.
     ///
     /// # Errors
@@ -50,7 +50,7 @@ impl<const WORDS: usize> Record<WORDS> {
         }
         let length = procedure.record(rest)?;
         words.truncate(own.len().saturating_add(length));
-        Ok(Record(words))
+        Ok(ProcedureRecord(words))
     }
 
     /// Goes on from it: a procedure of the same plan with everything entered, and the firmware's own words.
@@ -71,20 +71,20 @@ impl<const WORDS: usize> Record<WORDS> {
     }
 }
 
-impl<const WORDS: usize> Serialize for Record<WORDS> {
+impl<const WORDS: usize> Serialize for ProcedureRecord<WORDS> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         self.0.serialize(serializer)
     }
 }
 
-impl<'de, const WORDS: usize> Deserialize<'de> for Record<WORDS> {
+impl<'de, const WORDS: usize> Deserialize<'de> for ProcedureRecord<WORDS> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Vec::deserialize(deserializer).map(Record)
+        Vec::deserialize(deserializer).map(ProcedureRecord)
     }
 }
 
 /// "BAL" and the version of its form; the sizes of the plan are in the words.
-impl<const WORDS: usize> Parameters for Record<WORDS> {
+impl<const WORDS: usize> Parameters for ProcedureRecord<WORDS> {
     const IDENTITY: u32 = 0x4241_4c00;
     const VERSION: u16 = 1;
 }

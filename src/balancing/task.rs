@@ -71,7 +71,7 @@ pub struct Look<N: VibrationNumber, const ROWS: usize, const EDGES: usize> {
 ///
 /// ```
 #[doc = include_str!("grinder.txt")]
-/// const G2_5: Tolerance<f32> = Tolerance { grade: 2.5, mass: 140.0, speed: 77.0 };
+/// const G2_5: BalanceTolerance<f32> = BalanceTolerance { grade: 2.5, mass: 140.0, speed: 77.0 };
 /// const DESIGN: BalancingDesign =
 ///     BalancingDesign { rotor: G2_5, capacity: [0.02], travel: 3.0, settle: 0.3, quiet: 0.0 };
 /// let (mut drive, head) = (GrinderDrive::new(&CONFIG, 0), Head([Complex::new(0.005, 0.0)]));

@@ -9,9 +9,9 @@ pub const GRADES: [f64; 11] = [0.4, 1.0, 2.5, 6.3, 16.0, 40.0, 100.0, 250.0, 630
 /// A rotor whose residual unbalance is judged.
 ///
 /// ```
-/// use driveline::balancing::Tolerance;
+/// use driveline::balancing::BalanceTolerance;
 /// // a grinding wheel of 140 kg at 77 rad/s in G2.5: 2.5e-3 140/77 kg m
-/// const WHEEL: Tolerance<f64> = Tolerance { grade: 2.5, mass: 140.0, speed: 77.0 };
+/// const WHEEL: BalanceTolerance<f64> = BalanceTolerance { grade: 2.5, mass: 140.0, speed: 77.0 };
 /// assert!((WHEEL.permissible()? - 4.545e-3).abs() < 1e-6);
 /// assert_eq!(WHEEL.judge(1.0e-3)?.fulfils, Some(1.0)); // 0.55 mm/s
 /// # Ok::<(), driveline::balancing::Error>(())
@@ -19,7 +19,7 @@ pub const GRADES: [f64; 11] = [0.4, 1.0, 2.5, 6.3, 16.0, 40.0, 100.0, 250.0, 630
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[doc(alias("ISO 21940", "ISO 1940", "unbalance"))]
-pub struct Tolerance<T> {
+pub struct BalanceTolerance<T> {
     /// Balance quality grade G, the speed of the centre of mass about the axis (mm/s).
     pub grade: T,
     /// Mass (kg).
@@ -40,7 +40,7 @@ pub struct Verdict<T> {
     pub passed: bool,
 }
 
-impl<T: Scalar> Tolerance<T> {
+impl<T: Scalar> BalanceTolerance<T> {
     /// # Errors
     /// [`Error::Setting`] with the index of the value that is not positive.
     fn check(&self) -> Result<(), Error> {
@@ -87,7 +87,8 @@ impl<T: Scalar> Tolerance<T> {
         let permissible = self.permissible()?;
         let grade = residual * self.speed / self.mass * real(1e3);
         // by the permissible residual itself, so that one of exactly that is within its grade
-        let within = |known: &T| Tolerance { grade: *known, ..*self }.permissible().is_ok_and(|most| residual <= most);
+        let within =
+            |known: &T| BalanceTolerance { grade: *known, ..*self }.permissible().is_ok_and(|most| residual <= most);
         let fulfils = GRADES.iter().map(|&known| real::<T>(known)).find(within);
         Ok(Verdict { grade, fulfils, passed: residual <= permissible })
     }
@@ -140,14 +141,14 @@ mod tests {
     /// next grade, 6.3; a worse one than 4000 mm/s has none.
     #[test]
     fn a_residual_has_the_grade_that_it_is_within() {
-        let rotor = Tolerance { grade: 40.0, mass: 1.0, speed: 1.0 };
+        let rotor = BalanceTolerance { grade: 40.0, mass: 1.0, speed: 1.0 };
         let fulfils = |residual: f64| rotor.judge(residual).unwrap().fulfils;
-        assert_eq!(fulfils(Tolerance { grade: 2.5, ..rotor }.permissible().unwrap()), Some(2.5));
+        assert_eq!(fulfils(BalanceTolerance { grade: 2.5, ..rotor }.permissible().unwrap()), Some(2.5));
         assert_eq!((fulfils(0.0025 * (1.0 + 1e-6)), fulfils(0.0025 * (1.0 - 1e-6))), (Some(6.3), Some(2.5)));
         // two products and a division
         assert!((rotor.judge(0.0025).unwrap().grade - 2.5).abs() < 1e-15);
         // 0.5 mm of eccentricity at 50 rad/s: 25 mm/s
-        let heavy = Tolerance { mass: 2.0, speed: 50.0, ..rotor };
+        let heavy = BalanceTolerance { mass: 2.0, speed: 50.0, ..rotor };
         assert!((heavy.judge(0.001).unwrap().grade / 25.0 - 1.0).abs() < 1e-15);
         assert_eq!((fulfils(0.0), fulfils(3.999), fulfils(4.001)), (Some(0.4), Some(4000.0), None));
     }

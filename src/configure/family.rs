@@ -6,14 +6,14 @@ use crate::design::{Disturbance, PlacedObserver, SpeedLoopDesign, SpeedLoopTunin
 use crate::drive::{Composition, Drive};
 use crate::fluctuation::Fluctuation;
 use crate::governor::{DampingLag, Governor, LagConfig, LoopFilter, SetpointLag, SpeedLag, SpeedLoop, SpeedLoopConfig};
-use crate::learning::{Correction, EccentricityObserver};
+use crate::learning::{EccentricityNumber, EccentricityObserver};
 use crate::machine::{Length, Mass, Match, TwoMass};
 use crate::math::{exp, ln};
 use crate::number::{Fixed, Interpolate, Number, Part, StateOf};
 use crate::observer::{
     GearedConfig, GearedObserver, Observer, SemiImplicitConfig, SemiImplicitObserver, TwoMassConfig, TwoMassObserver,
 };
-use crate::scheduling::{Axis, Schedule};
+use crate::scheduling::{Breakpoints, Schedule};
 use crate::settings::{Bases, SpeedLoopSettings};
 
 /// A machine with two parameters that change while it runs, such as the load's mass and the rope's length.
@@ -230,7 +230,7 @@ macro_rules! cells {
 impl<M, N, O, const A: usize, const B: usize> Scheduled<M, N, A, B> for EccentricityObserver<O>
 where
     M: Family<A, B>,
-    N: Correction,
+    N: EccentricityNumber,
     O: Scheduled<M, N, A, B>,
 {
     const CELLS: [[Self::Config; B]; A] = O::CELLS;
@@ -342,6 +342,6 @@ where
                 cells[i][k] = (observers[i][k], governors[i][k]);
             });
         });
-        Schedule::new(Axis::new(M::FIRST), Axis::new(M::SECOND), cells)
+        Schedule::new(Breakpoints::new(M::FIRST), Breakpoints::new(M::SECOND), cells)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Configure, LoopPart, Machine, Needs};
 use crate::design::MechanismDesign;
-use crate::learning::{Correction, EccentricityObserver};
+use crate::learning::{EccentricityNumber, EccentricityObserver};
 use crate::number::Fixed;
 use crate::observer::{
     BacklashConfig, BacklashObserver, GearedConfig, GearedObserver, LoadGearConfig, LoadGearObserver, MechanismConfig,
@@ -19,7 +19,7 @@ pub trait HasMechanism: Machine {
     const MECHANISM_OBSERVER: MechanismDesign = Self::DRIVEN.observer(Self::RATE, Self::ENCODER, Self::DISTURBANCE);
 }
 
-impl<M: Machine, N: Correction, O: Configure<M, N>> Configure<M, N> for EccentricityObserver<O> {
+impl<M: Machine, N: EccentricityNumber, O: Configure<M, N>> Configure<M, N> for EccentricityObserver<O> {
     type Config = O::Config;
     const CONFIG: Self::Config = O::CONFIG;
     const LOOP: LoopPart = O::LOOP;

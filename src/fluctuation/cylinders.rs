@@ -13,7 +13,7 @@
 use core::f64::consts::TAU;
 
 use super::Ripple;
-use super::series::{Order, Series, circle};
+use super::series::{FourierSeries, Order, circle};
 use crate::math::{hypot, sin_cos, sqrt};
 use crate::number::Real;
 
@@ -74,7 +74,7 @@ pub enum CylinderVerdict {
 /// A cylinder.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Cylinder {
+pub struct CylinderReading {
     /// Its number.
     pub number: u8,
     /// Its mean torque over the cycle (N m).
@@ -109,14 +109,14 @@ impl<R: Real> Ripple<R> {
         engine: &Engine<CYLINDERS>,
         mean_torque: f64,
         teeth: usize,
-    ) -> [Cylinder; CYLINDERS] {
+    ) -> [CylinderReading; CYLINDERS] {
         let turns = f64::from(engine.turns.max(1));
         let count = CYLINDERS.max(1) as f64;
         let circle = circle();
         let half = CYLINDERS / 2;
         let [mean, spread] = [self.mean, self.quality.spread].map(Into::<f64>::into);
         let energy = self.speed.grid(&super::series::circle()).map(|speed| 0.5 * speed.into() * speed.into());
-        let per_inertia = Series::of(&energy, &circle, half).derivative();
+        let per_inertia = FourierSeries::of(&energy, &circle, half).derivative();
         let mut differences = [0.0; CYLINDERS];
         let mut variance = 0.0;
         // The scatter of an amplitude (rad) over its teeth and cycles, and of the order of the torque that it makes.
@@ -151,7 +151,8 @@ impl<R: Real> Ripple<R> {
         let deviation = if missing { f64::NAN } else { sqrt(variance) / median.abs() };
         let largest = differences.iter().fold(0.0_f64, |most, difference| most.max(1.0 - (own + difference) / median));
         let mut cylinders =
-            [Cylinder { number: 0, torque: 0.0, share: 0.0, deviation, verdict: CylinderVerdict::Good }; CYLINDERS];
+            [CylinderReading { number: 0, torque: 0.0, share: 0.0, deviation, verdict: CylinderVerdict::Good };
+                CYLINDERS];
         for ((cylinder, &number), &difference) in cylinders.iter_mut().zip(&engine.firing_order).zip(&differences) {
             let share = (own + difference) / median;
             cylinder.number = number;

@@ -6,7 +6,7 @@
 
 use core::f64::consts::TAU;
 
-use super::series::{Order, Series};
+use super::series::{FourierSeries, Order};
 use crate::number::Real;
 
 /// Largest less least of a waveform of noise alone, over its deviation: the range of 80 independent normal values is
@@ -16,8 +16,12 @@ const RANGE: f64 = 6.0;
 /// Derivative of a delta by the orders of the lateness (cycle), at the angles (2 pi to the cycle) of the largest and
 /// the least speed: the slowness is the derivative of the lateness, the speed its inverse.
 #[inline(never)]
-pub(super) fn sensitivity<R: Real>(slowness: &Series<R>, [most, least]: [R; 2], highest: usize) -> Series<R> {
-    let mut by = Series::default();
+pub(super) fn sensitivity<R: Real>(
+    slowness: &FourierSeries<R>,
+    [most, least]: [R; 2],
+    highest: usize,
+) -> FourierSeries<R> {
+    let mut by = FourierSeries::default();
     for (theta, sign) in [(most, R::of(TAU)), (least, R::of(-TAU))] {
         let slow = slowness.at(theta);
         let weight = sign / (slow * slow);
@@ -90,7 +94,7 @@ impl<R: Real> Left<R> {
 /// orders next to the highest.
 #[inline(never)]
 pub(super) fn deviation<R: Real>(
-    slowness: &Series<R>,
+    slowness: &FourierSeries<R>,
     at: [R; 2],
     [own, coefficient, beyond]: [R; 3],
     highest: usize,

@@ -9,8 +9,8 @@
 //!
 //! The speeds are the observer's. A ripple much faster than the observer is smaller in them than it is. Their noise
 //! makes the largest value too large and the least too small by two or three of its standard deviations.
-//! [`Reading::with_errors`] corrects the noise and gives each delta a deviation by noise and lag. Where delta is not far
-//! above that, take a [`super::Waveform`].
+//! [`CycleReading::with_errors`] corrects the noise and gives each delta a deviation by noise and lag. Where delta is
+//! not far above that, take a [`super::Waveform`].
 
 mod peak;
 mod reading;
@@ -18,7 +18,7 @@ mod reading;
 use core::f64::consts::TAU;
 
 pub use peak::Ranked;
-pub use reading::{Extreme, Fluctuations, Reading, SpeedErrors};
+pub use reading::{CycleReading, Extreme, Fluctuations, SpeedErrors};
 
 use super::position::{Position, RADIANS, Way};
 use super::{CycleConfig, Edge, Fluctuation};
@@ -326,7 +326,7 @@ impl<N: Ranked> Extremes<N> {
     /// and for a cycle in which an estimated speed was no number or changed its sign.
     ///
     /// Not for the tick: it divides.
-    pub fn reading(&self, config: &CycleConfig) -> Option<Reading<N::Real>> {
+    pub fn reading(&self, config: &CycleConfig) -> Option<CycleReading<N::Real>> {
         let mean = self.mean(config)?;
         let [before, from, to] = [self.edge(2), self.edge(1), self.edge(0)];
         let (angle, period) = (N::Real::of(config.angle), N::Real::of(config.period));
@@ -341,7 +341,7 @@ impl<N: Ranked> Extremes<N> {
             (max.speed * min.speed >= N::Real::ZERO && (max.speed - min.speed).is_finite())
                 .then(|| Fluctuations::of(max, min, mean))
         };
-        Some(Reading {
+        Some(CycleReading {
             mean,
             change: (self.good >= 3).then_some(mean - previous),
             duration: ticks * period,

@@ -6,7 +6,7 @@
 //! balance holds always: `J(phi) omega^2/2` is the work W(phi) up to a constant. With a flywheel the speed follows from
 //! `(J(phi) + J_F) omega'^2/2 = W'(phi)`, with W' reduced by the motor's fall of torque with speed.
 
-use super::series::{Circle, GRID, Grid, MAX_ORDER, Series, circle};
+use super::series::{Circle, FourierSeries, GRID, Grid, MAX_ORDER, circle};
 use super::{CycleConfig, Ripple};
 use crate::design::flywheel_inertia;
 use crate::math::sqrt;
@@ -71,9 +71,9 @@ pub enum Remedy {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Balance {
-    /// Inertia over the angle of the cycle, referred to the motor (kg m2): [`Series::constant`], or
-    /// [`Series::from_samples`] of a table.
-    pub inertia: Series,
+    /// Inertia over the angle of the cycle, referred to the motor (kg m2): [`FourierSeries::constant`], or
+    /// [`FourierSeries::from_samples`] of a table.
+    pub inertia: FourierSeries,
     /// By how much the driving torque falls with the speed (N m s/rad), 0 for a constant one.
     pub slope: f64,
 }
@@ -90,7 +90,7 @@ pub struct Balance {
 ///     waveform.take()
 /// });
 /// // 4 % with 2 kg m2, 2 % wanted: as much again
-/// let machine = Balance { inertia: Series::constant(2.0), slope: 0.0 };
+/// let machine = Balance { inertia: FourierSeries::constant(2.0), slope: 0.0 };
 /// let ripple = window.ok_or("it turns on and on")?.ripple(&CONFIG, 4)?;
 /// let flywheel = ripple.flywheel(&CYCLE, &machine, 0.02).ok_or("no flywheel does")?;
 /// assert!((flywheel.missing - 2.0).abs() < 0.02 && (flywheel.remaining - 0.02).abs() < 1e-4);
@@ -190,7 +190,7 @@ impl Machine {
             let change = off / ((beside - off) / (1e-6 * energy));
             energy -= change;
             if change.abs() < 1e-12 * energy {
-                let series = Series::of(&speed, circle, MAX_ORDER);
+                let series = FourierSeries::of(&speed, circle, MAX_ORDER);
                 let mean = series.mean;
                 return Some(series.fluctuations(mean, cycle.angle, circle).delta_arithmetic);
             }

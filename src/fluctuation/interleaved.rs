@@ -145,7 +145,7 @@ mod tests {
         fn run<F: Fluctuation<f32> + Default>(
             config: &F::Config,
             ticks: f64,
-            reading: fn(&F) -> Option<crate::fluctuation::Reading<f32>>,
+            reading: fn(&F) -> Option<crate::fluctuation::CycleReading<f32>>,
         ) {
             // an interpreter takes a thousand times as long
             let (every, last) = if cfg!(miri) { (49, 1_502) } else { (1, 3_000) };

@@ -13,7 +13,7 @@
 use core::f64::consts::TAU;
 
 use super::extremes::Fluctuations;
-use super::series::{Circle, Order, Series, circle};
+use super::series::{Circle, FourierSeries, Order, circle};
 use super::{Bin, CycleConfig, Ripple, Summed, WaveformConfig, Window};
 use crate::number::Real;
 
@@ -44,11 +44,11 @@ pub struct Drivetrain {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadSide<R = f64> {
     /// Torque of the shaft over the angle of the cycle (N m).
-    pub shaft_torque: Series<R>,
+    pub shaft_torque: FourierSeries<R>,
     /// Speed of the load (rad/s), its trend taken off.
-    pub load_speed: Series<R>,
+    pub load_speed: FourierSeries<R>,
     /// Torque of the load (N m).
-    pub load_torque: Series<R>,
+    pub load_torque: FourierSeries<R>,
     /// Extremes of the load's speed, and its delta. The deviation is the motor's, by the order that the shaft magnifies
     /// most.
     pub load: Fluctuations<R>,
@@ -60,7 +60,7 @@ pub struct LoadSide<R = f64> {
 impl<N: Summed, const BINS: usize> Window<N, BINS> {
     /// The motor's torque over the angle of the cycle (N m), with orders up to `highest`: the mean of each bin over the
     /// window. A bin without a tick has the torque of the one before it.
-    pub fn motor_torque(&self, config: &WaveformConfig, highest: usize) -> Series<N::Real> {
+    pub fn motor_torque(&self, config: &WaveformConfig, highest: usize) -> FourierSeries<N::Real> {
         let r = <N::Real as Real>::of;
         let of = |bin: &Bin<N>| {
             let total = N::total_to_real(bin.torque) * r(config.cycle.torque);
@@ -71,7 +71,7 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
             last = of(bin).unwrap_or(last);
             last
         });
-        let mut series = Series::sampled(torques, BINS, r(0.5), highest);
+        let mut series = FourierSeries::sampled(torques, BINS, r(0.5), highest);
         // A bin's mean is smaller than the value at its middle: sin(x)/x of half a bin.
         for (n, order) in (1_u32..).zip(&mut series.orders) {
             let x = N::Real::count(n) * r(0.5 * TAU / BINS as f64);
@@ -87,7 +87,7 @@ impl<R: Real> Ripple<R> {
     /// The waveforms on the load side under the motor's `torque` over the cycle.
     ///
     /// Not for the tick: some ten thousand operations.
-    pub fn load_side(&self, cycle: &CycleConfig, machine: &Drivetrain, torque: &Series<R>) -> LoadSide<R> {
+    pub fn load_side(&self, cycle: &CycleConfig, machine: &Drivetrain, torque: &FourierSeries<R>) -> LoadSide<R> {
         let circle = circle();
         let angle = R::of(cycle.angle);
         let per_angle = R::of(TAU) / angle;
@@ -95,7 +95,7 @@ impl<R: Real> Ripple<R> {
             [machine.motor_inertia, machine.load_inertia, machine.stiffness, machine.damping].map(R::of);
         let turning = self.speed.mean * per_angle;
         let shaft_torque = self.reaction(&self.speed, torque, motor, per_angle, &circle);
-        let mut twist = Series::constant(shaft_torque.mean / stiffness);
+        let mut twist = FourierSeries::constant(shaft_torque.mean / stiffness);
         let mut load_speed = self.speed;
         let (fitted, mut magnified) = (R::count(self.speed.highest() as u32), R::ZERO);
         for (((n, torque), twist), speed) in
@@ -118,7 +118,7 @@ impl<R: Real> Ripple<R> {
         let (mut least, mut most) = (R::INFINITY, -R::INFINITY);
         for &(cos, sin) in &circle {
             // less that of the means, which would hide a small swing
-            let above = |series: &Series<R>| {
+            let above = |series: &FourierSeries<R>| {
                 let value = series.along(cos, sin);
                 (value - series.mean) * (value + series.mean)
             };
@@ -137,17 +137,17 @@ impl<R: Real> Ripple<R> {
     #[inline(never)]
     fn reaction(
         &self,
-        speed: &Series<R>,
-        torque: &Series<R>,
+        speed: &FourierSeries<R>,
+        torque: &FourierSeries<R>,
         inertia: R,
         per_angle: R,
         circle: &Circle<R>,
-    ) -> Series<R> {
+    ) -> FourierSeries<R> {
         let slope = speed.derivative();
         let values = circle.map(|(cos, sin)| {
             let acceleration = speed.along(cos, sin) * slope.along(cos, sin) * per_angle + self.acceleration;
             torque.along(cos, sin) - inertia * acceleration
         });
-        Series::of(&values, circle, speed.highest())
+        FourierSeries::of(&values, circle, speed.highest())
     }
 }

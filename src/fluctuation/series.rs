@@ -52,28 +52,28 @@ impl<R: Real> Order<R> {
 /// Mean over the angle, and the orders from the first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Series<R = f64> {
+pub struct FourierSeries<R = f64> {
     /// The mean over the angle.
     pub mean: R,
     /// Order 1 first.
     pub orders: [Order<R>; MAX_ORDER],
 }
 
-impl<R: Real> Series<R> {
+impl<R: Real> FourierSeries<R> {
     /// The same at every angle.
     pub fn constant(value: R) -> Self {
-        Series { mean: value, ..Series::default() }
+        FourierSeries { mean: value, ..FourierSeries::default() }
     }
 
     /// Of a table of values at evenly spaced angles over the cycle, the first at theta = 0 and the last one step before
     /// 2 pi; orders below half of the table's length.
     pub fn from_samples(values: &[R]) -> Self {
-        Series::sampled(values.iter().copied(), values.len(), R::ZERO, values.len().saturating_sub(1) / 2)
+        FourierSeries::sampled(values.iter().copied(), values.len(), R::ZERO, values.len().saturating_sub(1) / 2)
     }
 
     /// Of `count` values at evenly spaced angles, the first `offset` steps from theta = 0.
     pub(super) fn sampled(values: impl Iterator<Item = R>, count: usize, offset: R, highest: usize) -> Self {
-        let mut series = Series::default();
+        let mut series = FourierSeries::default();
         let share = R::ONE / R::count(count.max(1) as u32);
         for (index, value) in (0_u32..).zip(values) {
             series.add(share * value, (R::of(TAU) * share * (R::count(index) + offset)).sin_cos(), highest);
@@ -165,7 +165,7 @@ impl<R: Real> Series<R> {
     /// The derivative by theta.
     #[must_use]
     pub fn derivative(&self) -> Self {
-        let mut derived = Series::default();
+        let mut derived = FourierSeries::default();
         for ((n, order), out) in (1_u32..).zip(&self.orders).zip(&mut derived.orders) {
             *out = order.derivative(R::count(n));
         }
@@ -175,7 +175,7 @@ impl<R: Real> Series<R> {
     /// Of values at evenly spaced angles from theta = 0, with orders up to `highest`.
     #[inline(never)]
     pub(super) fn of(values: &Grid<R>, circle: &Circle<R>, highest: usize) -> Self {
-        let mut series = Series::default();
+        let mut series = FourierSeries::default();
         for (value, &(cos, sin)) in values.iter().zip(circle) {
             series.add(*value * R::of(1.0 / GRID as f64), (sin, cos), highest);
         }
@@ -230,15 +230,15 @@ mod tests {
 
     use super::*;
 
-    fn of(n: usize, cos: f64, sin: f64) -> Series {
-        let mut series = Series::constant(1.0);
+    fn of(n: usize, cos: f64, sin: f64) -> FourierSeries {
+        let mut series = FourierSeries::constant(1.0);
         series.orders[n - 1] = Order { cos, sin };
         series
     }
 
     #[test]
     fn the_highest_order_has_a_sine_or_a_cosine() {
-        assert_eq!(Series::constant(1.0).highest(), 0);
+        assert_eq!(FourierSeries::constant(1.0).highest(), 0);
         for n in [1, 3, MAX_ORDER] {
             assert_eq!([of(n, 0.1, 0.0).highest(), of(n, 0.0, -0.1).highest(), of(n, 0.1, 0.1).highest()], [n; 3]);
         }

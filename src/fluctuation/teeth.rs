@@ -9,7 +9,7 @@ use core::f64::consts::TAU;
 
 use super::deviation::{Left, deviation, sensitivity};
 use super::quality::{Quality, Unusable};
-use super::series::{Order, Series};
+use super::series::{FourierSeries, Order};
 use super::{MAX_ORDER, Ripple};
 use crate::math::{ln, sin_cos, sqrt};
 use crate::wheel::{LOST, ToothCycle, ToothedWheelConfig};
@@ -201,8 +201,8 @@ impl<const TEETH: usize> ToothWindow<TEETH> {
             return Err(Unusable::Trend);
         }
         let late = self.lateness(config, rise);
-        let mut slowness = Series::constant(1.0);
-        let mut fit = Series::default();
+        let mut slowness = FourierSeries::constant(1.0);
+        let mut fit = FourierSeries::default();
         let mut own = late;
         // The passage of a tooth's error depends on the slowness there.
         let rounds = if errors.0.iter().all(|error| *error == 0.0) { 1 } else { 3 };
@@ -261,10 +261,10 @@ const STEPS: u32 = 40;
 fn fitted<const WHEEL: usize, const TEETH: usize>(
     config: &ToothedWheelConfig<WHEEL>,
     values: &[f64; TEETH],
-    guess: &Series,
+    guess: &FourierSeries,
     highest: usize,
-) -> Series {
-    let left = |tooth: usize, series: &Series| {
+) -> FourierSeries {
+    let left = |tooth: usize, series: &FourierSeries| {
         let (sin, cos) = sin_cos(TAU * place(config, tooth));
         values.get(tooth).map_or(0.0, |value| value - series.along(cos, sin))
     };
@@ -277,8 +277,8 @@ fn summed<const WHEEL: usize, const TEETH: usize>(
     config: &ToothedWheelConfig<WHEEL>,
     highest: usize,
     value: impl Fn(usize) -> f64,
-) -> Series {
-    let mut sum = Series::default();
+) -> FourierSeries {
+    let mut sum = FourierSeries::default();
     for tooth in 0..TEETH {
         let (value, (sin, cos)) = (value(tooth), sin_cos(TAU * place(config, tooth)));
         sum.mean += value;
@@ -294,9 +294,12 @@ fn summed<const WHEEL: usize, const TEETH: usize>(
 
 /// Solves the normal equations for a right-hand side by conjugate gradients (Bjorck, Numerical Methods for Least
 /// Squares Problems, 7.4.1).
-fn solved<const WHEEL: usize, const TEETH: usize>(config: &ToothedWheelConfig<WHEEL>, right: Series) -> Series {
+fn solved<const WHEEL: usize, const TEETH: usize>(
+    config: &ToothedWheelConfig<WHEEL>,
+    right: FourierSeries,
+) -> FourierSeries {
     let highest = right.highest();
-    let (mut series, mut left, mut direction) = (Series::default(), right, right);
+    let (mut series, mut left, mut direction) = (FourierSeries::default(), right, right);
     let first = product(&left, &left);
     let mut size = first;
     for _ in 0..STEPS {
@@ -321,12 +324,12 @@ fn solved<const WHEEL: usize, const TEETH: usize>(config: &ToothedWheelConfig<WH
     series
 }
 
-fn product(a: &Series, b: &Series) -> f64 {
+fn product(a: &FourierSeries, b: &FourierSeries) -> f64 {
     a.mean * b.mean + a.orders.iter().zip(&b.orders).map(|(a, b)| a.cos * b.cos + a.sin * b.sin).sum::<f64>()
 }
 
 /// `a + share b`.
-fn combined(a: &Series, share: f64, b: &Series) -> Series {
+fn combined(a: &FourierSeries, share: f64, b: &FourierSeries) -> FourierSeries {
     let mut sum = *a;
     sum.mean += share * b.mean;
     for (sum, b) in sum.orders.iter_mut().zip(&b.orders) {

@@ -8,7 +8,7 @@ use super::deviation::{Left, deviation, sensitivity};
 use super::extremes::Fluctuations;
 use super::position::RADIANS;
 use super::quality::{Quality, Unusable};
-use super::series::{Order, Series, circle};
+use super::series::{FourierSeries, Order, circle};
 use super::{Bin, Edge, Summed, WaveformConfig};
 use crate::number::Real;
 
@@ -50,7 +50,7 @@ pub struct Ripple<R = f64> {
     /// mends and a flywheel does not; 0 over a single cycle.
     pub acceleration: R,
     /// The motor's speed over the angle of the cycle (rad/s), its trend taken off.
-    pub speed: Series<R>,
+    pub speed: FourierSeries<R>,
     /// Its extremes, and delta.
     pub motor: Fluctuations<R>,
     /// Cycles that it is the mean of.
@@ -92,7 +92,7 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
         }
         // some orders more, which show the noise
         let fitted = (highest + NEXT).min(MAX_ORDER).min(BINS / 4);
-        let mut counted = Series::default();
+        let mut counted = FourierSeries::default();
         for (n, order) in (1_u32..).zip(counted.orders.iter_mut().take(fitted)) {
             *order = self.counted(n);
             order.sin *= sign;
@@ -108,7 +108,7 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
             return Err(Unusable::Ticks);
         }
         let mut ticks = whole;
-        let mut slowness = Series::constant(one);
+        let mut slowness = FourierSeries::constant(one);
         let mut beyond_highest = [Order::default(); MAX_ORDER];
         let mut ramp = Ramp { ends: [r(TAU) * cycles / whole; 2], ..Ramp::default() };
         for _ in 0..ROUNDS {
@@ -190,7 +190,7 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
     }
 
     /// By how much the ticks counted up to the end of each bin differ from the waveform.
-    fn left(&self, slowness: &Series<N::Real>, highest: usize) -> Left<N::Real> {
+    fn left(&self, slowness: &FourierSeries<N::Real>, highest: usize) -> Left<N::Real> {
         let total = self.kept().iter().fold(0_u32, |sum, bin| sum.wrapping_add(bin.ticks));
         let (mut counted, mut left) = (0_u32, Left::new(highest));
         for (index, bin) in (1_u32..).zip(self.kept()) {
@@ -245,7 +245,7 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
     }
 
     /// The two ends of the window, by the ripple and the speeds without it there (2 pi to the cycle, over ticks).
-    fn ends(&self, ripple: &Series<N::Real>, [from, to]: [N::Real; 2], angle: N::Real) -> Ends<N::Real> {
+    fn ends(&self, ripple: &FourierSeries<N::Real>, [from, to]: [N::Real; 2], angle: N::Real) -> Ends<N::Real> {
         let [first, second, last_but_one, last] = self.edges;
         let part = |edge: &Edge<N>, speed| Part {
             turned: N::Real::count(edge.beyond) * N::Real::of(RADIANS * TAU) / angle,
@@ -278,10 +278,17 @@ impl<R: Real> Ripple<R> {
 
     /// From the slowness over its mean.
     #[inline(never)]
-    pub(super) fn of(slowness: Series<R>, mean: R, acceleration: R, angle: R, highest: usize, cycles: u32) -> Self {
+    pub(super) fn of(
+        slowness: FourierSeries<R>,
+        mean: R,
+        acceleration: R,
+        angle: R,
+        highest: usize,
+        cycles: u32,
+    ) -> Self {
         let circle = circle();
         let fast = slowness.grid(&circle).map(|slowness| mean / slowness);
-        let speed = Series::of(&fast, &circle, highest);
+        let speed = FourierSeries::of(&fast, &circle, highest);
         let motor = slowness.stationary_values(&fast, mean, angle, &|slowness| mean / slowness);
         Ripple { mean, acceleration, speed, motor, cycles, quality: Quality::default() }
     }
@@ -311,7 +318,7 @@ struct Part<R> {
 impl<R: Real> Part<R> {
     /// Integral of e^(j n theta) over the time (ticks).
     #[inline(never)]
-    fn integral(&self, ripple: &Series<R>, n: i32) -> (R, R) {
+    fn integral(&self, ripple: &FourierSeries<R>, n: i32) -> (R, R) {
         let order = |n: i32| {
             let k = R::whole(n);
             let (sin, cos) = (k * self.turned).sin_cos();
@@ -324,7 +331,7 @@ impl<R: Real> Part<R> {
 
     /// By how much the sum over the ticks of e^(j n theta) is beyond its integral, up to here: the integral's
     /// antiderivative times `x/sin x` less 1, with x half of the order's turn in a tick.
-    fn sampled(&self, ripple: &Series<R>, n: i32) -> (R, R) {
+    fn sampled(&self, ripple: &FourierSeries<R>, n: i32) -> (R, R) {
         let n = R::whole(n);
         let turn = n * self.speed / ripple.at(self.turned);
         let square = R::of(0.25) * turn * turn;
@@ -337,7 +344,7 @@ impl<R: Real> Part<R> {
 
 /// Integral of the ripple's orders times e^(j n theta), from that of e^(j k theta): half of an order belongs to each of
 /// n - m and n + m.
-fn times_ripple<R: Real>(ripple: &Series<R>, n: i32, integral: impl Fn(i32) -> (R, R)) -> (R, R) {
+fn times_ripple<R: Real>(ripple: &FourierSeries<R>, n: i32, integral: impl Fn(i32) -> (R, R)) -> (R, R) {
     let mut sum = (R::ZERO, R::ZERO);
     for (m, order) in (1_i32..).zip(ripple.orders.iter().take(ripple.highest())) {
         for (k, im) in [(n - m, order.sin), (n + m, -order.sin)] {

@@ -87,7 +87,7 @@ impl EccentricityConfig {
 }
 
 /// Numbers with an eccentricity.
-pub trait Correction: Synchronous {
+pub trait EccentricityNumber: Synchronous {
     /// Units of a sum's growth to 2^-32 turn.
     const UNIT: f64;
     /// The error of an eccentricity (2^-32 turn) in a direction.
@@ -96,7 +96,7 @@ pub trait Correction: Synchronous {
 
 macro_rules! float {
     ($float:ident) => {
-        impl Correction for $float {
+        impl EccentricityNumber for $float {
             const UNIT: f64 = 1.0;
 
             #[inline(always)]
@@ -110,7 +110,7 @@ macro_rules! float {
 float!(f32);
 float!(f64);
 
-impl Correction for Fixed {
+impl EccentricityNumber for Fixed {
     const UNIT: f64 = 268_435_456.0;
 
     // Parts of 2^24, their products with an amplitude of less than 2^27.
@@ -157,7 +157,7 @@ impl Correction for Fixed {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[doc(alias("encoder error", "runout"))]
-pub struct EccentricityObserver<O, N: Correction = f32> {
+pub struct EccentricityObserver<O, N: EccentricityNumber = f32> {
     observer: O,
     /// The last accepted angle, as measured.
     measured: u32,
@@ -177,11 +177,11 @@ struct Learner {
 }
 
 #[inline(always)]
-fn direction<N: Correction>(measured: u32) -> [N::Part; 2] {
+fn direction<N: EccentricityNumber>(measured: u32) -> [N::Part; 2] {
     N::direction(measured >> 6)
 }
 
-impl<N: Correction, O> EccentricityObserver<O, N> {
+impl<N: EccentricityNumber, O> EccentricityObserver<O, N> {
     /// The learnt eccentricity: coefficients of cosine and sine of the measured angle (2^-32 turn).
     pub fn eccentricity(&self) -> [i32; 2] {
         self.eccentricity
@@ -257,7 +257,7 @@ fn bounded((a, b): Complex, bound: f64) -> ([i32; 2], bool) {
     ([(a * share) as i32, (b * share) as i32], size > bound)
 }
 
-impl<N: Correction, O: Observer<N>> Observer<N> for EccentricityObserver<O, N> {
+impl<N: EccentricityNumber, O: Observer<N>> Observer<N> for EccentricityObserver<O, N> {
     type Config = O::Config;
     /// The observer's, the direction of the measured angle, and the corrected angle.
     type States = (O::States, ([N::Part; 2], u32));

@@ -32,7 +32,7 @@ pub struct FreeFlight<N: Number> {
 /// Corrections per innovation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Correction<N: Number> {
+pub struct GapCorrection<N: Number> {
     /// Of mean speed, v, twist and load torque.
     pub states: [N::Coefficient; 4],
     /// The share of an innovation that is taken off the residual.
@@ -56,9 +56,9 @@ pub struct BacklashConfig<N: Number> {
     /// Turn of the motor from the sum of two mean speeds and from the twist's increment (2^-32 turn).
     pub turn: [N::Coefficient; 2],
     /// Gains of a shaft that has been in contact for some time.
-    pub settled: Correction<N>,
+    pub settled: GapCorrection<N>,
     /// Gains in the gap, and for [`hold`](Self::hold) ticks after it.
-    pub searching: Correction<N>,
+    pub searching: GapCorrection<N>,
     /// Ticks for which the searching gains stand after the gap has closed.
     pub hold: u32,
     /// Speed from a turn in a tick [rad/s per 2^-32 turn].

@@ -7,20 +7,20 @@ const RISING: &str = "an axis of a gain schedule needs two points or more, each 
 /// Values of a scheduling variable at the points of a grid.
 ///
 /// ```
-/// use driveline::scheduling::{Axis, Schedule};
+/// use driveline::scheduling::{Breakpoints, Schedule};
 /// // gains at two loads and two lengths of rope, and in the middle of the four
-/// const LOAD: Axis<2> = Axis::new([1.0, 3.0]);
-/// const ROPE: Axis<2> = Axis::new([10.0, 20.0]);
+/// const LOAD: Breakpoints<2> = Breakpoints::new([1.0, 3.0]);
+/// const ROPE: Breakpoints<2> = Breakpoints::new([10.0, 20.0]);
 /// const GAIN: Schedule<f64, 2, 2> = Schedule::new(LOAD, ROPE, [[1.0, 2.0], [3.0, 8.0]]);
 /// assert_eq!((GAIN.at(2.0, 15.0), GAIN.at(9.0, 20.0)), (14.0 / 4.0, 8.0)); // beyond an end as at the end
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Axis<const K: usize> {
+pub struct Breakpoints<const K: usize> {
     points: [f32; K],
 }
 
-impl<const K: usize> Axis<K> {
+impl<const K: usize> Breakpoints<K> {
     /// Two points or more, rising.
     ///
     /// # Panics
@@ -45,7 +45,7 @@ impl<const K: usize> Axis<K> {
                 return Err(RISING);
             }
         });
-        if K < 2 { Err(RISING) } else { Ok(Axis { points: single }) }
+        if K < 2 { Err(RISING) } else { Ok(Breakpoints { points: single }) }
     }
 
     /// The point below a value and the weight of the next. A value beyond an end is taken to be at the end, NaN at the
@@ -70,14 +70,14 @@ impl<const K: usize> Axis<K> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[doc(alias = "gain scheduling")]
 pub struct Schedule<C, const A: usize, const B: usize> {
-    first: Axis<A>,
-    second: Axis<B>,
+    first: Breakpoints<A>,
+    second: Breakpoints<B>,
     cells: [[C; B]; A],
 }
 
 impl<C: Interpolate, const A: usize, const B: usize> Schedule<C, A, B> {
     /// Constants at the points of two axes.
-    pub const fn new(first: Axis<A>, second: Axis<B>, cells: [[C; B]; A]) -> Self {
+    pub const fn new(first: Breakpoints<A>, second: Breakpoints<B>, cells: [[C; B]; A]) -> Self {
         const { assert!(A >= 2 && B >= 2, "a gain schedule needs two points or more on each axis") };
         Schedule { first, second, cells }
     }
@@ -98,7 +98,7 @@ impl<C: Interpolate, const A: usize, const B: usize> Schedule<C, A, B> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Axis, Schedule};
+    use super::{Breakpoints, Schedule};
 
     /// `2 + 3 x + 5 y + 7 x y` at the points: bilinear, so that interpolation is exact but for the weights' 2^-16.
     fn law(x: f64, y: f64) -> f64 {
@@ -109,7 +109,7 @@ mod tests {
     fn a_bilinear_law_comes_back_between_its_points_and_stays_at_its_edges() {
         let (xs, ys) = ([0.5, 1.0, 4.0], [-1.0, 2.0]);
         let cells = xs.map(|x| ys.map(|y| law(x, y)));
-        let schedule = Schedule::new(Axis::new(xs), Axis::new(ys), cells);
+        let schedule = Schedule::new(Breakpoints::new(xs), Breakpoints::new(ys), cells);
         for x in [0.5, 0.7, 1.0, 2.5, 3.9, 4.0] {
             for y in [-1.0, 0.3, 2.0] {
                 // 2^-16 of a cell in each direction, of at most 3 by 17 and 3 by 33
@@ -125,8 +125,8 @@ mod tests {
     #[test]
     fn points_that_do_not_rise_are_refused() {
         for points in [[1.0, 1.0, 2.0], [3.0, 2.0, 4.0], [1.0, f64::NAN, 2.0], [1.0, 2.0, f64::INFINITY]] {
-            assert!(Axis::try_new(points).is_err(), "{points:?}");
+            assert!(Breakpoints::try_new(points).is_err(), "{points:?}");
         }
-        assert!(Axis::try_new([1.0]).is_err());
+        assert!(Breakpoints::try_new([1.0]).is_err());
     }
 }

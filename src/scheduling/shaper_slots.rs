@@ -1,6 +1,6 @@
 //! Slots of an input shaper over the length of the rope.
 
-use super::grid::Axis;
+use super::grid::Breakpoints;
 use crate::design::InputShaperDesign;
 use crate::machine::Length;
 use crate::number::Interpolate;
@@ -23,7 +23,7 @@ use crate::number::Interpolate;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ShaperSlots<const K: usize> {
-    ropes: Axis<K>,
+    ropes: Breakpoints<K>,
     slots: [u32; K],
 }
 
@@ -44,7 +44,8 @@ impl<const K: usize> ShaperSlots<K> {
     /// [`new`](Self::new), with the sentence instead of a panic.
     ///
     /// # Errors
-    /// For lengths that [`Axis`] refuses or that are not positive, and slots that are not near a whole number of ticks.
+    /// For lengths that [`Breakpoints`] refuses or that are not positive, and slots that are not near a whole number of
+    /// ticks.
     pub const fn try_new(
         design: &InputShaperDesign,
         rope: Length,
@@ -52,7 +53,7 @@ impl<const K: usize> ShaperSlots<K> {
         slots: u32,
         period: f64,
     ) -> Result<Self, &'static str> {
-        let axis = get!(Axis::try_new(ropes));
+        let axis = get!(Breakpoints::try_new(ropes));
         let mut found = [0; K];
         each!(k, 0..K, {
             let design = match design.try_at_rope(rope, Length(ropes[k])) {

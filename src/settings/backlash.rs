@@ -5,7 +5,7 @@ use super::convert::positive;
 use super::format::ANGLE_PER_RADIAN;
 use super::{Bases, Error, Format};
 use crate::design::{BacklashDesign, PlacedObserver};
-use crate::observer::{BacklashConfig, Contact, Correction, FreeFlight, TwoMassConfig};
+use crate::observer::{BacklashConfig, Contact, FreeFlight, GapCorrection, TwoMassConfig};
 
 const GAIN: &str = "a searching gain of the observer of backlash is beyond the range of its number: let the twist \
     wander less, or raise the rate";
@@ -20,7 +20,7 @@ struct Added {
     /// Of the shaft's law, in the tick in which it is left.
     leaving: [f64; 3],
     free: FreeFlight<f64>,
-    searching: Correction<f64>,
+    searching: GapCorrection<f64>,
 }
 
 const fn added(design: &BacklashDesign, format: &Format) -> Added {
@@ -45,7 +45,7 @@ const fn added(design: &BacklashDesign, format: &Format) -> Added {
             twist_rate: free.g2 * (forcing / twist_rate) / wide,
             meeting: [-late, -share, -catch_up],
         },
-        searching: Correction {
+        searching: GapCorrection {
             states: [
                 (motor / total * motor_gain + load / total * load_gain) / speed * per_angle,
                 (motor_gain - load_gain) / twist_rate * per_angle,
@@ -85,8 +85,8 @@ constants! {
             },
             acceleration: c.acceleration,
             turn: c.turn,
-            settled: Correction { states: c.correction, angle: c.angle_correction },
-            searching: Correction { states: get!(To::coefficients(a.searching.states, GAIN)), angle },
+            settled: GapCorrection { states: c.correction, angle: c.angle_correction },
+            searching: GapCorrection { states: get!(To::coefficients(a.searching.states, GAIN)), angle },
             hold: design.hold,
             speed: c.speed,
             share: c.share,

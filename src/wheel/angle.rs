@@ -1,8 +1,8 @@
 //! The angle between two teeth.
 
-use super::cycle::Record;
+use super::cycle::ToothRecord;
 use super::description::{ToothedWheelConfig, next_place, tooth};
-use super::state::{Open, Stage, ToothedWheel};
+use super::state::{Open, Synchronization, ToothedWheel};
 use crate::fault::Faults;
 
 /// Teeth in a row that may be without an edge.
@@ -18,7 +18,7 @@ pub struct WheelAngle {
     pub deviation: u32,
 }
 
-impl<R: Record> ToothedWheel<R> {
+impl<R: ToothRecord> ToothedWheel<R> {
     /// The angle at `now`, on the same clock. To be read in every tick, so that a stopped wheel is not taken for one
     /// that has just turned once.
     ///
@@ -30,7 +30,7 @@ impl<R: Record> ToothedWheel<R> {
         config: &ToothedWheelConfig<TEETH>,
         now: u32,
     ) -> Result<WheelAngle, Faults> {
-        if self.stage != Stage::Known {
+        if self.synchronization != Synchronization::Known {
             return Err(Faults::ANGLE_MISSING);
         }
         let next = next_place(config, self.place);

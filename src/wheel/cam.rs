@@ -1,11 +1,11 @@
 //! The phase of the cycle from a cam, and the zero of a wheel without a gap from an index.
 
-use super::cycle::Record;
+use super::cycle::ToothRecord;
 use super::description::ToothedWheelConfig;
 use super::phase::Cam;
-use super::state::{Open, Stage, ToothedWheel};
+use super::state::{Open, Synchronization, ToothedWheel};
 
-impl<R: Record> ToothedWheel<R> {
+impl<R: ToothRecord> ToothedWheel<R> {
     /// An edge of the cam; to be called from the interrupt of its capture. The parts of the cycle in which the cam has
     /// no edge here are excluded; when one is left, the cycle goes on from there. An edge that excludes all is left
     /// out, and the next begin anew.
@@ -20,7 +20,7 @@ impl<R: Record> ToothedWheel<R> {
         let turn = self.in_cycle.checked_div(TEETH as u32).unwrap_or(0);
         let elapsed = time.wrapping_sub(self.track.passage) as i32;
         let (Some(tooth), 1..=32) = (config.teeth.get(self.place as usize), parts) else { return };
-        if self.stage == Stage::Searching {
+        if self.synchronization == Synchronization::Searching {
             return;
         }
         let share = |whole: u32, parts: u32| whole.checked_div(parts).unwrap_or(0);
@@ -57,7 +57,7 @@ impl<R: Record> ToothedWheel<R> {
                 self.cam.turns = Some(turns.saturating_add(1));
                 self.open = Open::Nothing;
             }
-            _ if self.stage == Stage::Known => self.lose(),
+            _ if self.synchronization == Synchronization::Known => self.lose(),
             _ => {
                 self.cam.turns = Some(0);
                 self.place = last;
@@ -73,7 +73,7 @@ impl<R: Record> ToothedWheel<R> {
 
     /// Whether the cam has shown the phase of the cycle.
     pub fn has_phase(&self) -> bool {
-        self.stage == Stage::Known && self.cam.left == 1
+        self.synchronization == Synchronization::Known && self.cam.left == 1
     }
 }
 

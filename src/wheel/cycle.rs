@@ -1,7 +1,7 @@
 //! The times of a cycle's teeth, handed to the main loop.
 
 /// What a wheel records of its teeth, on the interrupt.
-pub trait Record {
+pub trait ToothRecord {
     /// A tooth of the cycle passed at this time (clock counts).
     fn tooth(&mut self, place: u32, time: u32);
     /// The place was lost: the cycle is not finished.
@@ -9,7 +9,7 @@ pub trait Record {
 }
 
 /// Nothing: a wheel that gives an angle alone.
-impl Record for () {
+impl ToothRecord for () {
     #[inline(always)]
     fn tooth(&mut self, _place: u32, _time: u32) {}
 
@@ -74,7 +74,7 @@ impl<const TEETH: usize> Default for CycleTimes<TEETH> {
     }
 }
 
-impl<const TEETH: usize> Record for CycleTimes<TEETH> {
+impl<const TEETH: usize> ToothRecord for CycleTimes<TEETH> {
     fn tooth(&mut self, place: u32, time: u32) {
         let [even, odd] = &mut self.cycles;
         let (filled, other) = if self.filling & 1 == 0 { (even, odd) } else { (odd, even) };

@@ -1,15 +1,15 @@
 //! The state of a wheel, and what is known of its place.
 
 use super::check::Check;
-use super::cycle::{CycleTimes, Record, ToothCycle};
+use super::cycle::{CycleTimes, ToothCycle, ToothRecord};
 use super::phase::Phase;
 use super::place::Search;
 use super::track::Track;
 
-/// How much is known of the place.
+/// How far the wheel is synchronized with its teeth: how much is known of the place.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Stage {
+pub enum Synchronization {
     /// Not known.
     #[default]
     Searching,
@@ -38,7 +38,7 @@ pub(super) enum Open {
 ///
 /// ```
 /// use driveline::settings::{Teeth, ToothClock};
-/// use driveline::wheel::{Stage, ToothedWheel, ToothedWheelConfig};
+/// use driveline::wheel::{Synchronization, ToothedWheel, ToothedWheelConfig};
 /// const CONFIG: ToothedWheelConfig<58> =
 ///     ToothedWheelConfig::new(&Teeth::gap(60, 2), ToothClock { turns: 1, clock: 6e6, lowest_speed: 10.0 });
 /// let mut wheel = ToothedWheel::<()>::default();
@@ -46,7 +46,7 @@ pub(super) enum Open {
 /// for place in (0..60 * 3 + 11_u32).filter(|place| place % 60 < 58) {
 ///     wheel.tooth(&CONFIG, 1000 * place);
 /// }
-/// assert_eq!(wheel.stage(), Stage::Known);
+/// assert_eq!(wheel.synchronization(), Synchronization::Known);
 /// let turn = wheel.at(&CONFIG, 1000 * (60 * 3 + 10) + 500)?.angle as f64 / 4_294_967_296.0;
 /// assert!((turn - 10.5 / 60.0).abs() < 1.0 / 60_000.0); // a count of the clock
 /// # Ok::<(), driveline::fault::Faults>(())
@@ -59,7 +59,7 @@ pub struct ToothedWheel<R = ()> {
     pub(super) last: u32,
     pub(super) interval: u32,
     pub(super) search: Search,
-    pub(super) stage: Stage,
+    pub(super) synchronization: Synchronization,
     pub(super) trust: u32,
     pub(super) open: Open,
     /// The last tooth, and its number in the cycle. While the place is not known, one more with each edge.
@@ -80,13 +80,13 @@ pub struct ToothedWheel<R = ()> {
     pub(super) record: R,
 }
 
-impl<R: Record + Default> Default for ToothedWheel<R> {
+impl<R: ToothRecord + Default> Default for ToothedWheel<R> {
     fn default() -> Self {
         ToothedWheel {
             last: 0,
             interval: 0,
             search: Search::NEW,
-            stage: Stage::Searching,
+            synchronization: Synchronization::Searching,
             trust: 0,
             open: Open::Nothing,
             place: 0,
@@ -104,18 +104,22 @@ impl<R: Record + Default> Default for ToothedWheel<R> {
     }
 }
 
-impl<R: Record> ToothedWheel<R> {
+impl<R: ToothRecord> ToothedWheel<R> {
     /// The wheel stands, the capture has timed out, edges were missed: the place is looked for anew.
     pub fn lose(&mut self) {
-        self.stage = Stage::Searching;
+        self.synchronization = Synchronization::Searching;
         self.search = Search::NEW;
         self.interval = 0;
         self.record.lost();
     }
 
     /// Whether the place is known.
-    pub fn stage(&self) -> Stage {
-        if self.stage == Stage::Known && self.open == Open::Place { Stage::Checking } else { self.stage }
+    pub fn synchronization(&self) -> Synchronization {
+        if self.synchronization == Synchronization::Known && self.open == Open::Place {
+            Synchronization::Checking
+        } else {
+            self.synchronization
+        }
     }
 }
 

@@ -2,11 +2,11 @@
 
 use super::angle::SKIPPED;
 use super::check::Check;
-use super::cycle::Record;
+use super::cycle::ToothRecord;
 use super::description::{Tooth, ToothedWheelConfig, before_place, next_place, tooth};
 use super::phase::Phase;
 use super::place::{Search, ratio};
-use super::state::{Open, Stage, ToothedWheel};
+use super::state::{Open, Synchronization, ToothedWheel};
 use super::track::Track;
 
 /// Edges too many and teeth without an edge that lose the place, without a good turn between.
@@ -27,12 +27,12 @@ const FORGOTTEN: u32 = 15;
 /// Good intervals before a wheel that is known is found at its gap.
 const FAMILIAR: u32 = 8;
 
-impl<R: Record> ToothedWheel<R> {
+impl<R: ToothRecord> ToothedWheel<R> {
     /// An edge of a tooth, at this reading of a clock that wraps; to be called from the interrupt of its capture.
     pub fn tooth<const TEETH: usize>(&mut self, config: &ToothedWheelConfig<TEETH>, time: u32) {
-        if self.stage != Stage::Searching {
+        if self.synchronization != Synchronization::Searching {
             self.follow(config, time);
-            if self.stage == Stage::Searching || self.doubts == 0 && self.open != Open::Place {
+            if self.synchronization == Synchronization::Searching || self.doubts == 0 && self.open != Open::Place {
                 self.last = time;
                 return;
             }
@@ -50,7 +50,7 @@ impl<R: Record> ToothedWheel<R> {
         }
         self.last = time;
         self.interval = interval;
-        if self.stage == Stage::Searching {
+        if self.synchronization == Synchronization::Searching {
             self.place = next_place(config, self.place);
             let fresh = self.search.intervals == 0;
             self.track.pace = if fresh || interval < self.track.pace { interval } else { self.track.pace };
@@ -71,7 +71,7 @@ impl<R: Record> ToothedWheel<R> {
         }
         // A doubled edge looks like the tooth behind a gap: where the gap itself was not seen, the place is checked.
         let familiar = self.trust > 0 && interval >= before && config.sector > 1;
-        if self.stage != Stage::Searching && !familiar {
+        if self.synchronization != Synchronization::Searching && !familiar {
             self.search = Search::NEW;
             return;
         }
@@ -79,7 +79,7 @@ impl<R: Record> ToothedWheel<R> {
         // agree with them exclude a machine that has turned back, and teeth without an edge that look like a gap; so
         // does a speed that has not changed.
         let agrees = self.place.checked_rem(config.sector) == Some(place);
-        if self.stage != Stage::Searching {
+        if self.synchronization != Synchronization::Searching {
             if agrees && self.open == Open::Place {
                 self.open = Open::Nothing;
                 return self.note(time);
@@ -106,13 +106,13 @@ impl<R: Record> ToothedWheel<R> {
         self.track = Track::begin(interval, before, time, tooth, last);
         self.cam = Phase::NEW;
         self.open = Open::Nothing;
-        self.stage = if familiar && steady { Stage::Known } else { Stage::Checking };
+        self.synchronization = if familiar && steady { Synchronization::Known } else { Synchronization::Checking };
         self.note(time);
     }
 
     /// An edge while a place is assumed or known.
     fn follow<const TEETH: usize>(&mut self, config: &ToothedWheelConfig<TEETH>, time: u32) {
-        let known = self.stage == Stage::Known;
+        let known = self.synchronization == Synchronization::Known;
         let (mut place, mut in_cycle) = (self.place, self.in_cycle);
         let mut passage = self.track.passage;
         for skipped in 0..=SKIPPED {
@@ -208,7 +208,7 @@ impl<R: Record> ToothedWheel<R> {
                             None => {}
                             Some(true) => {
                                 self.trust = self.trust.max(1);
-                                self.stage = Stage::Known;
+                                self.synchronization = Synchronization::Known;
                             }
                             Some(false) => return self.lose(),
                         }
@@ -244,7 +244,7 @@ impl<R: Record> ToothedWheel<R> {
 
     /// More has to be seen before the angle is given.
     fn reopen(&mut self, open: Open) {
-        if self.open < open && self.stage == Stage::Known {
+        if self.open < open && self.synchronization == Synchronization::Known {
             self.open = open;
             if open == Open::Place {
                 self.search = Search::NEW;
@@ -270,7 +270,7 @@ impl<R: Record> ToothedWheel<R> {
 
     /// Records the last tooth.
     fn note(&mut self, time: u32) {
-        if self.stage == Stage::Known && self.open != Open::Place {
+        if self.synchronization == Synchronization::Known && self.open != Open::Place {
             self.record.tooth(self.in_cycle, time);
         }
     }

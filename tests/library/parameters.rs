@@ -465,7 +465,7 @@ fn what_does_not_fit_is_said_and_nothing_is_lost() {
 }
 
 type Field = Procedure<f64, 2, 2, 4>;
-type Record = balancing::Record<{ Field::words(2, 2) + 1 }>;
+type FieldRecord = balancing::ProcedureRecord<{ Field::words(2, 2) + 1 }>;
 
 /// A rotor that two sensors feel, and what is on it.
 struct Rotor {
@@ -525,7 +525,7 @@ fn a_balancing_goes_on_after_a_power_cut_at_any_step() {
     };
     let keep = |flash: &mut Flash, field: &Field| {
         let mut store = Store::new(flash.clone(), RANGE).unwrap();
-        let saved = store.save(&Record::of(field, &[0x5eed]).unwrap(), &mut [0; 2048]);
+        let saved = store.save(&FieldRecord::of(field, &[0x5eed]).unwrap(), &mut [0; 2048]);
         *flash = store.release();
         saved
     };
@@ -543,7 +543,7 @@ fn a_balancing_goes_on_after_a_power_cut_at_any_step() {
             let mut cut = Flash { left: point, ..kept.clone() };
             assert_eq!(keep(&mut cut, &field), Err(Error::Flash(Cut)));
             let mut own = [0];
-            let found: Record = load(&mut cut).parameters.unwrap();
+            let found: FieldRecord = load(&mut cut).parameters.unwrap();
             let mut resumed: Field = found.resume(plan, &mut own).unwrap();
             assert!(resumed == before || resumed == field, "step {steps}, cut after {point} of {bytes} bytes");
             assert_eq!(own, [0x5eed]);
@@ -565,7 +565,7 @@ fn a_balancing_goes_on_after_a_power_cut_at_any_step() {
     assert_eq!((field.weights(), steps), (whole, 7));
     assert!(cuts > 500 && lost > 0 && lost < cuts, "{cuts} {lost}");
     // a record of another plan is refused
-    let other: Record = load(&mut flash).parameters.unwrap();
+    let other: FieldRecord = load(&mut flash).parameters.unwrap();
     let resumed: Result<Field, _> = other.resume(Plan { leave_trials: true, ..plan }, &mut [0]);
     assert!(matches!(resumed, Err(balancing::Error::Record { .. })));
 }

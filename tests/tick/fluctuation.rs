@@ -3,8 +3,8 @@
 use core::f64::consts::TAU;
 
 use driveline::fluctuation::{
-    Balance, Cylinder, CylinderVerdict, Drivetrain, Engine, Extreme, Fluctuations, MachineClass, Order, Quality,
-    Ripple, Series, Summed,
+    Balance, CylinderReading, CylinderVerdict, Drivetrain, Engine, Extreme, Fluctuations, FourierSeries, MachineClass,
+    Order, Quality, Ripple, Summed,
 };
 use driveline::number::Fixed;
 use driveline::settings::{Bases, Cycle};
@@ -23,7 +23,7 @@ fn ripple(speed: impl Fn(f64) -> f64, acceleration: f64, cycles: u32, quality: Q
     Ripple {
         mean: 1.0 / slowness,
         acceleration,
-        speed: Series::from_samples(&table),
+        speed: FourierSeries::from_samples(&table),
         motor: Fluctuations::of(extreme(most), extreme(least), 1.0 / slowness),
         cycles,
         quality,
@@ -38,7 +38,7 @@ fn times([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
 /// The engine whose cylinders have these mean torques, in the order of firing, each with the combustion of
 /// [`Engine::peak`]: `T (1 + 2 sum Re P(m) e^(j m (theta - theta_k)))` over the cycle, P(m) = 1/(1 + j m a/turns)^2.
 /// Speed and energy follow by integration.
-fn engine<const Z: usize>(torques: [f64; Z], turns: u32, quality: Quality, cycles: u32) -> [Cylinder; Z] {
+fn engine<const Z: usize>(torques: [f64; Z], turns: u32, quality: Quality, cycles: u32) -> [CylinderReading; Z] {
     let (first, peak, inertia, mean_speed) = (0.4, 0.7, 2.5, 100.0);
     let mut orders = vec![];
     for m in 1..=Z / 2 {
@@ -198,11 +198,11 @@ fn the_flywheel_of_a_press() {
         let cycle = CycleConfig::new(cycle, 1e-4, Bases::SI);
         for (slope, accuracy) in [(0.0, 2e-6), (5.0, 1e-4), (100.0, 3e-4)] {
             let table: Vec<f64> = (0..32).map(|k| inertia(f64::from(k) / 32.0 * TAU)).collect();
-            let balance = Balance { inertia: Series::from_samples(&table), slope };
+            let balance = Balance { inertia: FourierSeries::from_samples(&table), slope };
             for permissible in [0.1, 0.02, 0.005] {
                 let found = [1.0, -1.0].map(|sign| {
                     let ripple = ripple(pressing, 0.0, 8, Quality::default());
-                    let speed = Series::from_samples(&[0; 64].map(|_| 0.0));
+                    let speed = FourierSeries::from_samples(&[0; 64].map(|_| 0.0));
                     let mut turned = Ripple { mean: sign * ripple.mean, speed, ..ripple };
                     turned.speed.mean = sign * ripple.speed.mean;
                     for (order, of) in turned.speed.orders.iter_mut().zip(&ripple.speed.orders) {
@@ -236,7 +236,7 @@ fn the_flywheel_of_a_press() {
 fn a_flywheel_that_is_not_needed_or_cannot_be() {
     let cycle = CycleConfig::new(Cycle::TURN, 1e-4, Bases::SI);
     let ripple = ripple(pressing, 0.0, 8, Quality::default());
-    let steady = |inertia, slope| Balance { inertia: Series::constant(inertia), slope };
+    let steady = |inertia, slope| Balance { inertia: FourierSeries::constant(inertia), slope };
     let delta = ripple.motor.delta_arithmetic;
     let flywheel = ripple.flywheel(&cycle, &steady(3.0, 0.0), 1.005 * delta).unwrap();
     assert_eq!((flywheel.missing, flywheel.remaining, flywheel.delta), (0.0, delta, delta));
@@ -269,7 +269,7 @@ fn a_flywheel_that_is_not_needed_or_cannot_be() {
     assert_eq!(infinite.flywheel(&cycle, &steady(3.0, 0.0), 0.01), None);
     // nor is any permitted
     let mut stops = ripple;
-    stops.speed = Series::constant(20.0);
+    stops.speed = FourierSeries::constant(20.0);
     stops.speed.orders[0].cos = -20.0;
     for (ripple, inertia) in [
         (ripple, 0.0),
@@ -309,20 +309,20 @@ fn the_load_side_in_closed_form() {
     let mut ripple = ripple(at, acceleration, 8, Quality::default());
     // the highest order counts, be it as good as nothing
     ripple.speed.orders[11] = Order { cos: 0.0, sin: 1e-300 };
-    let torque = Series {
+    let torque = FourierSeries {
         orders: {
             let mut orders = [Order::default(); 16];
             orders[1].sin = 7.0;
             orders
         },
-        ..Series::constant(90.0)
+        ..FourierSeries::constant(90.0)
     };
     let found = ripple.load_side(&cycle, &machine, &torque);
     // theta is half of the motor's angle: d/dt = omega/2 d/dtheta
     let shaft = |theta: f64| 90.0 + 7.0 * (2.0 * theta).sin() - 2.0 * (0.5 * at(theta) * slope(theta) + acceleration);
     let orders = |of: &dyn Fn(f64) -> f64| {
         let table: Vec<f64> = (0..64).map(|k| of(f64::from(k) / 64.0 * TAU)).collect();
-        Series::from_samples(&table)
+        FourierSeries::from_samples(&table)
     };
     let shaft_orders = orders(&shaft);
     // twist = torque over (k + j d n w/2), the load's speed less its rate
@@ -376,7 +376,7 @@ fn the_load_side_in_closed_form() {
 fn a_series_is_its_orders() {
     let of = |theta: f64| 3.0 + 2.0 * theta.cos() - (2.0 * theta).sin() + 0.5 * (5.0 * theta + 0.3).cos();
     let table: Vec<f64> = (0..11).map(|k| of(f64::from(k) / 11.0 * TAU)).collect();
-    let series = Series::from_samples(&table);
+    let series = FourierSeries::from_samples(&table);
     for (n, cos, sin) in [(1, 2.0, 0.0), (2, 0.0, -1.0), (3, 0.0, 0.0), (5, 0.5 * 0.3_f64.cos(), -0.5 * 0.3_f64.sin())]
     {
         assert!((series.order(n).cos - cos).abs() < 1e-14 && (series.order(n).sin - sin).abs() < 1e-14, "{n}");
@@ -391,8 +391,8 @@ fn a_series_is_its_orders() {
     }
     // orders below half of the table's length: of ten, four
     let table: Vec<f64> = (0..10).map(|k| of(f64::from(k) / 10.0 * TAU)).collect();
-    assert_eq!(Series::from_samples(&table).order(5), Order::default());
-    assert_eq!(Series::from_samples(&[]), Series::<f64>::default());
+    assert_eq!(FourierSeries::from_samples(&table).order(5), Order::default());
+    assert_eq!(FourierSeries::from_samples(&[]), FourierSeries::<f64>::default());
 }
 
 /// A number of fixed point has 2^28 to its base: a total is the sum of them as whole numbers, over 2^28, however often

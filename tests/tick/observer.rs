@@ -3,7 +3,7 @@
 use driveline::angle::RotorAngleConfig;
 use driveline::number::{Coefficient, Fixed, Number};
 use driveline::observer::{
-    BacklashConfig, BacklashObserver, Contact, Correction, FreeFlight, GearFriction, GearedConfig, GearedObserver,
+    BacklashConfig, BacklashObserver, Contact, FreeFlight, GapCorrection, GearFriction, GearedConfig, GearedObserver,
     MechanismConfig, MechanismObserver, Observer, RigidConfig, RigidObserver, SemiImplicitConfig, SemiImplicitObserver,
     TABLE_POINTS, TablePoint, TwoMassConfig, TwoMassObserver,
 };
@@ -311,8 +311,8 @@ const BACKLASH: BacklashConfig<f64> = BacklashConfig {
     free: FreeFlight { twist: [1.0, 0.5], twist_rate: 0.0, meeting: [2.0, 3.0, 0.25] },
     acceleration: 1.0,
     turn: [0.5, 0.25],
-    settled: Correction { states: [0.0; 4], angle: 0.0 },
-    searching: Correction { states: [0.5, 0.0, 0.0, 0.0], angle: 0.0 },
+    settled: GapCorrection { states: [0.0; 4], angle: 0.0 },
+    searching: GapCorrection { states: [0.5, 0.0, 0.0, 0.0], angle: 0.0 },
     hold: 2,
     speed: 1.0,
     share: [0.5, -0.5],
@@ -435,7 +435,7 @@ fn the_observers_tell_of_a_state_beyond_its_base() {
         points: [flat; TABLE_POINTS],
         tool: [],
     });
-    let gains = Correction { states: [zero; 4], angle: zero };
+    let gains = GapCorrection { states: [zero; 4], angle: zero };
     tells::<BacklashObserver<Fixed>>(&BacklashConfig {
         forcing: [zero; 2],
         half_gap: Fixed::from_bits(1 << 20),

@@ -4,7 +4,7 @@
 use core::f64::consts::TAU;
 
 use driveline::fluctuation::{
-    CycleConfig, Extremes, Fluctuation, Ripple, Series, Unusable, Waveform, WaveformConfig, Window,
+    CycleConfig, Extremes, Fluctuation, FourierSeries, Ripple, Unusable, Waveform, WaveformConfig, Window,
 };
 use driveline::sample::Estimate;
 use driveline::settings::{Bases, Cycle};
@@ -100,9 +100,9 @@ impl Motion {
     }
 
     /// The speed over its mean by time.
-    fn expected(&self) -> Series {
+    fn expected(&self) -> FourierSeries {
         let table: Vec<f64> = (0..64).map(|k| 1.0 / self.slowness(f64::from(k) / 64.0 * TAU)).collect();
-        Series::from_samples(&table)
+        FourierSeries::from_samples(&table)
     }
 }
 

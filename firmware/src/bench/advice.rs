@@ -3,8 +3,9 @@
 //! can panic.
 
 use driveline::balancing::{
-    Action, Aim, Complex, CorrectionMethod, Entry, Error, Holes, InRun, InRunConfig, Influence, Motion, Objective,
-    Phasor, Plan, Procedure, Record, Run, Sensor, Tolerance, degrees, from_amplitudes, resultant, two_planes,
+    Action, Aim, BalanceTolerance, Complex, CorrectionMethod, Entry, Error, Holes, InRun, InRunConfig, Influence,
+    Motion, Objective, Phasor, Plan, Procedure, ProcedureRecord, Run, Sensor, degrees, from_amplitudes, resultant,
+    two_planes,
 };
 use driveline::parameters::Store;
 
@@ -127,11 +128,11 @@ fn field(readings: &Readings<8>) -> Result<[Complex<f32>; 2], Error> {
 
     let mut flash = Pages::new();
     let Ok(mut store) = Store::new(&mut flash, 0..2048) else { return Err(Error::Size) };
-    let record = Record::<{ Field::words(2, 2) + 1 }>::of(&field, &[7])?;
+    let record = ProcedureRecord::<{ Field::words(2, 2) + 1 }>::of(&field, &[7])?;
     if store.save(&record, &mut [0; 1024]).is_err() {
         return Err(Error::Size);
     }
-    let Ok(loaded) = store.load::<Record<{ Field::words(2, 2) + 1 }>>(&mut [0; 1024]) else {
+    let Ok(loaded) = store.load::<ProcedureRecord<{ Field::words(2, 2) + 1 }>>(&mut [0; 1024]) else {
         return Err(Error::Size);
     };
     let field: Field = loaded.parameters.ok_or(Error::Size)?.resume(plan, &mut [0])?;
@@ -149,7 +150,7 @@ fn grade(_: &mut (), readings: &Readings<2>, grade: &mut f32) {
     let Ok(moved) = sensor.motion(Phasor { re: a.re, im: a.im }, 150.0, Motion::Displacement) else { return };
     let along = [(Complex::from(moved), 0.1), (b, 0.4), (c, 0.5), (d, 0.9)];
     let Ok(planes) = two_planes(along, 0.0, 1.0) else { return };
-    let tolerance = Tolerance { grade: 2.5, mass: 100.0, speed: 150.0 };
+    let tolerance = BalanceTolerance { grade: 2.5, mass: 100.0, speed: 150.0 };
     let (Ok(whole), Ok(bearings)) = (tolerance.permissible(), tolerance.at_bearings(0.4, 1.0)) else { return };
     if let Ok(verdict) = tolerance.judge(resultant(&planes)) {
         *grade = verdict.grade + verdict.fulfils.unwrap_or(whole) + bearings[0];

@@ -2,7 +2,7 @@
 //! tick. A 60-2 wheel whose speed swings and whose edges jitter by some hundredths of a pitch.
 
 use driveline::settings::{Teeth, ToothClock};
-use driveline::wheel::{CycleTimes, Record, ToothedWheel, ToothedWheelConfig};
+use driveline::wheel::{CycleTimes, ToothRecord, ToothedWheel, ToothedWheelConfig};
 
 use super::Bench;
 use crate::Words;
@@ -20,7 +20,7 @@ pub fn all<B: Board>(bench: &mut Bench<'_, B>) {
     part::<B, ()>(bench, "wheel/angle", angle);
 }
 
-fn part<B: Board, R: Record + Default + 'static>(
+fn part<B: Board, R: ToothRecord + Default + 'static>(
     bench: &mut Bench<'_, B>,
     name: &str,
     measured: fn(&mut ToothedWheel<R>, &u32, &mut u32),
@@ -43,11 +43,11 @@ fn part<B: Board, R: Record + Default + 'static>(
 }
 
 #[inline(never)]
-fn tooth<R: Record>(wheel: &mut ToothedWheel<R>, time: &u32, _: &mut u32) {
+fn tooth<R: ToothRecord>(wheel: &mut ToothedWheel<R>, time: &u32, _: &mut u32) {
     wheel.tooth(&WHEEL, *time);
 }
 
 #[inline(never)]
-fn angle<R: Record>(wheel: &mut ToothedWheel<R>, time: &u32, angle: &mut u32) {
+fn angle<R: ToothRecord>(wheel: &mut ToothedWheel<R>, time: &u32, angle: &mut u32) {
     *angle = wheel.at(&WHEEL, *time).map_or(0, |angle| angle.angle);
 }

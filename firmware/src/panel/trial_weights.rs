@@ -5,7 +5,7 @@
 
 use core::marker::PhantomData;
 
-use driveline::balancing::{Complex, Correction, Error, Phasor, Plan, Procedure, ProcedureStep, Record, Run};
+use driveline::balancing::{Complex, Correction, Error, Phasor, Plan, Procedure, ProcedureRecord, ProcedureStep, Run};
 use driveline::parameters::Store;
 
 use super::flash_model::{self, Pages};
@@ -70,7 +70,7 @@ impl<G: Goal, const ROWS: usize, const PLANES: usize> TrialWeights<G, ROWS, PLAN
         for (words, run_out) in own.as_chunks_mut::<2>().0.iter_mut().zip(self.run_out) {
             *words = [run_out.re.to_bits(), run_out.im.to_bits()];
         }
-        let Ok(record) = Record::<WORDS>::of(procedure, &own) else { return NOT_KEPT };
+        let Ok(record) = ProcedureRecord::<WORDS>::of(procedure, &own) else { return NOT_KEPT };
         match Store::new(&mut self.flash, RANGE).and_then(|mut store| store.save(&record, &mut [0; BYTES])) {
             Ok(()) => DONE,
             Err(_) => NOT_KEPT,
@@ -81,7 +81,7 @@ impl<G: Goal, const ROWS: usize, const PLANES: usize> TrialWeights<G, ROWS, PLAN
     fn resume(&mut self) -> u32 {
         let loaded = Store::new(&mut self.flash, RANGE).and_then(|mut store| store.load(&mut [0; BYTES]));
         let Some(record) = loaded.ok().and_then(|loaded| loaded.parameters) else { return NOTHING_KEPT };
-        let record: Record<WORDS> = record;
+        let record: ProcedureRecord<WORDS> = record;
         let mut own = [0; RUN_OUT];
         let Ok(procedure) = record.resume(Self::plan(), &mut own) else { return NOTHING_KEPT };
         for (run_out, [re, im]) in self.run_out.iter_mut().zip(own.as_chunks::<2>().0) {

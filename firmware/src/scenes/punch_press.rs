@@ -22,7 +22,7 @@ use driveline::design::{
     Actuator, Disturbance, Encoder, GovernorDesign, LoadFeedForward, SpeedLoopDesign, SpeedLoopTuning,
 };
 use driveline::drive::{ConfigOf, Drive};
-use driveline::fluctuation::{Balance, CycleMean, Flywheel, Series, Summed, Waveform, WaveformConfig, Window};
+use driveline::fluctuation::{Balance, CycleMean, Flywheel, FourierSeries, Summed, Waveform, WaveformConfig, Window};
 use driveline::governor::{CycleAverage, SpeedGovernor, SpeedLoop, SymmetricLimit};
 use driveline::machine::{
     Chain, CrankSlider, Damping, DrivenMechanism, Efficiency, Inertia, Length, Mass, Match, Mechanism, Ratio, Speed,
@@ -223,7 +223,7 @@ impl<N: Summed<Real = f32>> Notes<N> {
         let Some(window) = &self.window else { return panel::NOT_YET };
         let Ok(ripple) = window.ripple(config, HIGHEST) else { return panel::NONE };
         // The motor's torque does not follow the speed within a stroke: the governor does not see it.
-        let balance = Balance { inertia: Series::from_samples(&INERTIA), slope: 0.0 };
+        let balance = Balance { inertia: FourierSeries::from_samples(&INERTIA), slope: 0.0 };
         self.advice = ripple.flywheel(&config.cycle, &balance, permissible).map(|flywheel| (ripple.mean, flywheel));
         if self.advice.is_some() { panel::DONE } else { panel::NONE }
     }

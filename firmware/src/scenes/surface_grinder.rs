@@ -18,7 +18,7 @@
 //! | `whole` | the drive, and a panel that balances and shows the fluctuation |
 //! | `tick` | the drive alone: the cost of a tick with all four parts |
 
-use driveline::balancing::{BalancingDesign, Tolerance};
+use driveline::balancing::{BalanceTolerance, BalancingDesign};
 use driveline::configure::{HasVibration, Machine, Rating, VibrationNumber};
 use driveline::design::{Disturbance, Encoder, SpeedLoopDesign, SpeedLoopTuning};
 use driveline::drive::ConfigOf;
@@ -78,7 +78,7 @@ pub const CAPACITY: f64 = 2.0e-2;
 
 impl SelfBalanced for SurfaceGrinder {
     const BALANCING: BalancingDesign = BalancingDesign {
-        rotor: Tolerance { grade: 2.5, mass: 140.0, speed: Self::RATING.speed.0 as f32 },
+        rotor: BalanceTolerance { grade: 2.5, mass: 140.0, speed: Self::RATING.speed.0 as f32 },
         capacity: [CAPACITY as f32],
         travel: 3.0,
         settle: 0.3,

@@ -89,7 +89,7 @@ pub const CAPACITY: f64 = 1.0e-4;
 
 impl SelfBalanced for TestRig {
     const BALANCING: BalancingDesign = BalancingDesign {
-        rotor: balancing::Tolerance { grade: 2.5, mass: 1.0, speed: SPEED as f32 },
+        rotor: balancing::BalanceTolerance { grade: 2.5, mass: 1.0, speed: SPEED as f32 },
         capacity: [CAPACITY as f32],
         travel: 3.0,
         settle: 0.3,

@@ -9,7 +9,7 @@ use cargo_driveline::cli;
 use cargo_driveline::machine_file::{balance, is_train, parse, parse_rotor, parse_train, parse_train_for_modes};
 use cargo_driveline::recording::{Asked, read_recording};
 use cargo_driveline::telemetry::Decoder;
-use driveline::balancing::{Plan, Procedure, Record};
+use driveline::balancing::{Plan, Procedure, ProcedureRecord};
 use driveline::parameters::Store;
 use driveline_firmware::Words;
 use driveline_firmware::scene::Input;
@@ -70,7 +70,7 @@ pub fn telemetry(bytes: &[u8]) {
 /// Bytes of the flash.
 const SIZE: usize = 1024;
 type Field = Procedure<f32, 2, 2>;
-type Kept = Record<{ Field::words(2, 2) }>;
+type Kept = ProcedureRecord<{ Field::words(2, 2) }>;
 
 struct Flash([u8; SIZE]);
 

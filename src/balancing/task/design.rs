@@ -1,14 +1,14 @@
 //! The rotor and its head, as the balancing task needs them.
 
 use crate::balancing::in_run::InRunConfig;
-use crate::balancing::tolerance::Tolerance;
+use crate::balancing::tolerance::BalanceTolerance;
 
 /// Rotor, tolerance and balancing head.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BalancingDesign<const PLANES: usize = 1> {
     /// Rotor with its balance quality grade and its highest service speed. It is balanced from half of this speed on.
-    pub rotor: Tolerance<f32>,
+    pub rotor: BalanceTolerance<f32>,
     /// Largest weight that the head can set in each plane (kg m).
     pub capacity: [f32; PLANES],
     /// Longest time of a move (s).

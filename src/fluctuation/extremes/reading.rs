@@ -53,7 +53,7 @@ impl<R: Real> Fluctuations<R> {
 /// One cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Reading<R> {
+pub struct CycleReading<R> {
     /// Mean by time (rad/s), of motor and load alike; negative backwards.
     pub mean: R,
     /// The mean less that of the cycle before (rad/s): the part that is not periodic, which a governor mends and a
@@ -144,7 +144,7 @@ impl SpeedErrors {
     }
 }
 
-impl<R: Real> Reading<R> {
+impl<R: Real> CycleReading<R> {
     /// The same with the errors of the estimated speeds, of a load torque with orders up to `highest`. Noise makes the
     /// largest speed of a cycle too large and the least too small: they are corrected. The deltas have a deviation by
     /// the noise and by the observer's lag at the highest order; orders beyond it are in no deviation.
@@ -156,7 +156,7 @@ impl<R: Real> Reading<R> {
             let noise = errors.noise.get(side).copied().unwrap_or(f64::NAN);
             [R::of(noise), errors.lag(side, frequency)]
         };
-        Reading {
+        CycleReading {
             motor: self.motor.without_noise(self.mean, of(0), samples),
             load: self.load.without_noise(self.mean, of(1), samples),
             ..self

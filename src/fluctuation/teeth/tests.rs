@@ -206,14 +206,14 @@ fn orders_are_found_at_uneven_teeth() {
     let two_thirds = [0.0, 0.07, 0.15, 0.24, 0.35, 0.45, 0.55, 0.68];
     for (angles, size) in [(four_fifths, 1.0), (four_fifths, 1e-7), (two_thirds, 1.0), (two_thirds, 1e-7)] {
         let config = ToothedWheelConfig::<8>::new(&Teeth { angles }, CLOCK);
-        let mut of = Series::constant(0.3 * size);
+        let mut of = FourierSeries::constant(0.3 * size);
         of.orders[0] = Order { cos: size, sin: -0.4 * size };
         of.orders[1] = Order { cos: 0.2 * size, sin: 0.7 * size };
         let mut values = [0.0; 8];
         for (tooth, value) in values.iter_mut().enumerate() {
             *value = of.at(TAU * place(&config, tooth));
         }
-        for guess in [Series::default(), Series::constant(2.0 * size)] {
+        for guess in [FourierSeries::default(), FourierSeries::constant(2.0 * size)] {
             let found = fitted(&config, &values, &guess, 2);
             let off = combined(&found, -1.0, &of);
             assert!(sqrt(product(&off, &off)) < 1e-6 * size, "{size} {found:?}");

@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use super::{Order, Series, times_ripple};
+use super::{FourierSeries, Order, times_ripple};
 use crate::number::Real;
 
 /// Change by a steady acceleration from one end of a window to the other, angles in 2 pi to the cycle and times in
@@ -47,14 +47,20 @@ impl<R: Real> Ramp<R> {
     /// The orders of the ripple over its mean, in the direction of travel. `integrals` are those of slowness times
     /// cos(n theta) and sin(n theta) over a window of so many ticks; `known` is the ripple as it was before. The
     /// slowness is the trend times the ripple, so each order of the ripple also shows in the others.
-    pub(super) fn taken_off(&self, known: &Series<R>, integrals: &Series<R>, ticks: R, highest: usize) -> Series<R> {
+    pub(super) fn taken_off(
+        &self,
+        known: &FourierSeries<R>,
+        integrals: &FourierSeries<R>,
+        ticks: R,
+        highest: usize,
+    ) -> FourierSeries<R> {
         // Contribution of the trend and of the ripple's orders to order n and the mean.
         let leaked = |n: i32| {
             let (own, sum) = (self.integral(n), times_ripple(known, n, |k| self.integral(k)));
             (own.0 + sum.0, own.1 + sum.1)
         };
         let whole = ticks - leaked(0).0;
-        let mut ripple = Series::constant(R::ONE);
+        let mut ripple = FourierSeries::constant(R::ONE);
         for ((n, out), order) in (1_i32..).zip(ripple.orders.iter_mut().take(highest)).zip(&integrals.orders) {
             let (cos, sin) = leaked(n);
             *out = Order { cos: R::of(2.0) * (order.cos - cos) / whole, sin: R::of(2.0) * (order.sin - sin) / whole };

@@ -4,8 +4,8 @@ use super::super::CycleConfig;
 use super::*;
 
 /// A slowness of one with this first order.
-fn of(cos: f64, sin: f64) -> Series {
-    let mut series = Series::constant(1.0);
+fn of(cos: f64, sin: f64) -> FourierSeries {
+    let mut series = FourierSeries::constant(1.0);
     series.orders[0] = Order { cos, sin };
     series
 }
@@ -18,7 +18,7 @@ fn ripple(cos: f64, sin: f64) -> Ripple {
 #[test]
 fn ticks_are_beyond_their_integral_as_by_the_closed_form() {
     for (turned, speed, n) in [(0.4_f64, 0.02_f64, 1), (1.3, 0.2, 3), (2.0, 0.05, 9), (0.7, 0.6, 1)] {
-        let (cos, sin) = Part { turned, speed }.sampled(&Series::constant(1.0), n);
+        let (cos, sin) = Part { turned, speed }.sampled(&FourierSeries::constant(1.0), n);
         let n = f64::from(n);
         let x = 0.5 * n * speed;
         let share = (x / x.sin() - 1.0) / (n * speed);
@@ -29,7 +29,7 @@ fn ticks_are_beyond_their_integral_as_by_the_closed_form() {
     }
     // the turn of a tick by the slowness there
     let slow = Part { turned: 0.0, speed: 0.2 }.sampled(&of(1.0, 0.0), 1);
-    assert_eq!(slow, Part { turned: 0.0, speed: 0.1 }.sampled(&Series::constant(1.0), 1));
+    assert_eq!(slow, Part { turned: 0.0, speed: 0.1 }.sampled(&FourierSeries::constant(1.0), 1));
 }
 
 /// Ticks spread evenly over a bin: the mean of `cos(n e)` is `sin(h/2)/(h/2)`, with `h` the order's turn over it.

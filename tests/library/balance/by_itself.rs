@@ -6,8 +6,8 @@
 use core::f64::consts::{PI, TAU};
 
 use driveline::balancing::{
-    BalancingDesign, BalancingDesignError, BalancingFault, BalancingHead, BalancingMemory, BalancingRecord,
-    BalancingState, BalancingTask, Complex, HeadPosition, Phasors, Tolerance,
+    BalanceTolerance, BalancingDesign, BalancingDesignError, BalancingFault, BalancingHead, BalancingMemory,
+    BalancingRecord, BalancingState, BalancingTask, Complex, HeadPosition, Phasors,
 };
 use driveline::configure::HasVibration;
 use driveline::parameters::Store;
@@ -43,7 +43,7 @@ type Memory = Option<BalancingRecord<2, 1>>;
 static CONFIG: ConfigOf<GrinderDrive> = GrinderDrive::configure::<Grinder>();
 
 const DESIGN: BalancingDesign = BalancingDesign {
-    rotor: Tolerance { grade: 2.5, mass: MASS as f32, speed: SERVICE as f32 },
+    rotor: BalanceTolerance { grade: 2.5, mass: MASS as f32, speed: SERVICE as f32 },
     capacity: [CAPACITY as f32],
     travel: 5.0,
     settle: 0.3,
@@ -351,7 +351,10 @@ fn a_mistake_has_an_error_of_its_own() {
         other => panic!("{design:?}: {other:?}"),
     };
     for (design, error) in [
-        (BalancingDesign { rotor: Tolerance { mass: 0.0, ..DESIGN.rotor }, ..DESIGN }, BalancingDesignError::Rotor),
+        (
+            BalancingDesign { rotor: BalanceTolerance { mass: 0.0, ..DESIGN.rotor }, ..DESIGN },
+            BalancingDesignError::Rotor,
+        ),
         (BalancingDesign { capacity: [f32::NAN], ..DESIGN }, BalancingDesignError::Capacity),
         (BalancingDesign { travel: 0.0, ..DESIGN }, BalancingDesignError::Travel),
         (BalancingDesign { settle: -1.0, ..DESIGN }, BalancingDesignError::Settle),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use driveline::balancing::{Complex, Entry, Error, GRADES, Tolerance, degrees, from_amplitudes, two_planes};
+use driveline::balancing::{BalanceTolerance, Complex, Entry, Error, GRADES, degrees, from_amplitudes, two_planes};
 use serde_json::Value;
 
 use super::noise::Noise;
@@ -21,7 +21,7 @@ fn number(case: &Value, key: &str) -> f64 {
 fn permissible_unbalance_and_its_split() {
     let data = data();
     for case in data["tolerance_cases"].as_array().unwrap() {
-        let tolerance = Tolerance {
+        let tolerance = BalanceTolerance {
             grade: number(case, "G_mm_s"),
             mass: number(case, "mass_kg"),
             speed: number(case, "speed_rpm") * TAU / 60.0,
@@ -41,7 +41,7 @@ fn permissible_unbalance_and_its_split() {
             }
         }
     }
-    let rotor = Tolerance { grade: 2.5_f64, mass: 10.0, speed: 100.0 };
+    let rotor = BalanceTolerance { grade: 2.5_f64, mass: 10.0, speed: 100.0 };
     let whole = rotor.permissible().unwrap();
     // 2.5 mm/s over 100 rad/s is 25 um; the shares end at 0.3 and 0.7, overhung at 0.3 and 1.3
     assert!((whole - 2.5e-4).abs() < 1e-18);
@@ -52,7 +52,7 @@ fn permissible_unbalance_and_its_split() {
     assert_eq!((shares(-0.2), shares(-0.5)), ([1.2, 0.3], [1.3, 0.5]));
     assert_eq!((shares(0.0), shares(1.0)), ([0.7, 0.3], [0.3, 0.7]));
     assert_eq!(rotor.judge(1e3).unwrap().fulfils, None);
-    assert_eq!(Tolerance { mass: 0.0, ..rotor }.permissible(), Err(Error::Setting { index: 1 }));
+    assert_eq!(BalanceTolerance { mass: 0.0, ..rotor }.permissible(), Err(Error::Setting { index: 1 }));
     assert_eq!(rotor.at_bearings(0.3, 0.0), Err(Error::Setting { index: 3 }));
 }
 
@@ -118,13 +118,13 @@ fn amplitudes_alone() {
 fn grades_end_to_the_last_place() {
     for known in GRADES {
         for (mass, speed) in [(12.0, 154.985), (25.0, 314.159), (0.3, 7330.38), (1800.0, 15.7)] {
-            let tolerance = Tolerance { grade: known, mass, speed };
+            let tolerance = BalanceTolerance { grade: known, mass, speed };
             let most = tolerance.permissible().unwrap();
             let verdict = tolerance.judge(most).unwrap();
             assert!(verdict.passed && verdict.fulfils == Some(known), "{known} {verdict:?}");
             let verdict = tolerance.judge(most.next_up()).unwrap();
             assert!(!verdict.passed && verdict.fulfils != Some(known), "{known} {verdict:?}");
-            let tolerance = Tolerance { grade: known as f32, mass: mass as f32, speed: speed as f32 };
+            let tolerance = BalanceTolerance { grade: known as f32, mass: mass as f32, speed: speed as f32 };
             let verdict = tolerance.judge(tolerance.permissible().unwrap()).unwrap();
             assert!(verdict.passed && verdict.fulfils == Some(known as f32), "{known} {verdict:?}");
         }

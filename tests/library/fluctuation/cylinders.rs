@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use driveline::fluctuation::{Cylinder, CylinderVerdict, Engine, ToothErrors, ToothWindow};
+use driveline::fluctuation::{CylinderReading, CylinderVerdict, Engine, ToothErrors, ToothWindow};
 use driveline::settings::{Teeth, ToothClock};
 use driveline::wheel::{Cam, CycleTimes, ToothedWheel, ToothedWheelConfig};
 
@@ -54,14 +54,20 @@ fn motored(degrees: f64, speed: f64) -> f64 {
 
 impl Simulated {
     /// The verdicts of windows of eight cycles each, with these strengths of the cylinders in the order of firing.
-    fn windows(&self, strengths: &[f64], windows: usize, seed: u64) -> Vec<Vec<Cylinder>> {
+    fn windows(&self, strengths: &[f64], windows: usize, seed: u64) -> Vec<Vec<CylinderReading>> {
         match self.cylinders {
             4 => self.of::<4>(strengths, [1, 3, 4, 2], windows, seed),
             _ => self.of::<6>(strengths, [1, 5, 3, 6, 2, 4], windows, seed),
         }
     }
 
-    fn of<const Z: usize>(&self, strengths: &[f64], order: [u8; Z], windows: usize, seed: u64) -> Vec<Vec<Cylinder>> {
+    fn of<const Z: usize>(
+        &self,
+        strengths: &[f64],
+        order: [u8; Z],
+        windows: usize,
+        seed: u64,
+    ) -> Vec<Vec<CylinderReading>> {
         let mut random = Random(seed);
         let config =
             ToothedWheelConfig::new(&Teeth::<58>::gap(60, 2), ToothClock { turns: 2, clock: 4e6, lowest_speed: 10.0 });
@@ -144,7 +150,7 @@ fn a_weak_cylinder_and_a_misfire_are_found() {
                 let mut strengths = vec![1.0; engine.cylinders];
                 strengths[place] = strength;
                 let windows = engine.windows(&strengths, 50, 1 + place as u64);
-                let right = |cylinders: &&Vec<Cylinder>| {
+                let right = |cylinders: &&Vec<CylinderReading>| {
                     cylinders.iter().enumerate().all(|(k, cylinder)| {
                         cylinder.verdict == if k == place { verdict } else { CylinderVerdict::Good }
                     })
@@ -170,7 +176,7 @@ fn an_even_engine_has_no_weak_cylinder() {
     for engine in engines() {
         let windows = engine.windows(&vec![1.0; engine.cylinders], WINDOWS, 9);
         // Where it is uncertain there is no false one.
-        let faulty = |c: &Cylinder| matches!(c.verdict, CylinderVerdict::Weak | CylinderVerdict::Misfire);
+        let faulty = |c: &CylinderReading| matches!(c.verdict, CylinderVerdict::Weak | CylinderVerdict::Misfire);
         let bad = windows.iter().filter(|cylinders| cylinders.iter().any(faulty));
         assert_eq!(bad.count(), 0, "{} at {}", engine.cylinders, engine.speed);
     }
@@ -181,7 +187,7 @@ fn an_even_engine_has_no_weak_cylinder() {
 fn scatter_gives_no_verdict() {
     let engine = Simulated { cylinders: 4, inertia: 0.25, torque: 120.0, speed: 150.0, combustion: 0.03, edge: 0.9 };
     let windows = engine.windows(&[1.0; 4], 20, 3);
-    let uncertain = |cylinder: &Cylinder| cylinder.verdict == CylinderVerdict::Uncertain;
+    let uncertain = |cylinder: &CylinderReading| cylinder.verdict == CylinderVerdict::Uncertain;
     assert!(windows.iter().flatten().all(|cylinder| uncertain(cylinder) == (cylinder.deviation >= 0.05)));
     assert!(windows.iter().any(|cylinders| cylinders.iter().all(uncertain)), "{windows:?}");
 }

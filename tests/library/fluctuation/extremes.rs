@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use driveline::fluctuation::{CycleConfig, Extremes, Fluctuation, Ranked, Reading};
+use driveline::fluctuation::{CycleConfig, CycleReading, Extremes, Fluctuation, Ranked};
 use driveline::number::Fixed;
 use driveline::sample::Estimate;
 use driveline::settings::{Bases, Cycle};
@@ -25,7 +25,7 @@ fn follow<N: Ranked>(
     bases: Bases,
     cycles: u32,
     number: impl Fn(f64) -> N,
-) -> Reading<f64> {
+) -> CycleReading<f64> {
     let config = CycleConfig::new(cycle, PERIOD, bases);
     let mut extremes = Extremes::<N>::default();
     while extremes.cycles() < cycles {

@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 
 use driveline::design::{energy_swing, flywheel_inertia};
-use driveline::fluctuation::{Balance, CycleConfig, Drivetrain, MachineClass, Remedy, Series};
+use driveline::fluctuation::{Balance, CycleConfig, Drivetrain, FourierSeries, MachineClass, Remedy};
 use driveline::settings::Cycle;
 use serde_json::Value;
 
@@ -19,7 +19,7 @@ const CRANK: Machine = Machine { inertia: [6.0, 1.5], motor: [250.0, 5.0], load:
 
 fn balance(machine: &Machine) -> Balance {
     let table: Vec<f64> = (0..32).map(|k| machine.inertia(f64::from(k) / 32.0 * TAU)).collect();
-    Balance { inertia: Series::from_samples(&table), slope: machine.motor[1] }
+    Balance { inertia: FourierSeries::from_samples(&table), slope: machine.motor[1] }
 }
 
 /// Delta with the flywheel is the permitted one within 2 %; that without is what the machine's speed says, within 1 %:
@@ -104,7 +104,7 @@ fn window(
     cycle: Cycle,
     cycles: u32,
     highest: usize,
-) -> (driveline::fluctuation::Ripple, Series, CycleConfig) {
+) -> (driveline::fluctuation::Ripple, FourierSeries, CycleConfig) {
     let config = f32::constants(cycle, cycles);
     let mut taken = None;
     run::<f32>(&config, motion, 200_000, |drive| {

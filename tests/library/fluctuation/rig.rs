@@ -4,8 +4,8 @@ use driveline::design::{Disturbance, Encoder, Rate, TwoMassDesign};
 use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::fault::Faults;
 use driveline::fluctuation::{
-    CycleConfig, Extreme, Extremes, Fluctuations, Order, Quality, Ranked, Reading, Ripple, Series, Summed, Waveform,
-    WaveformConfig,
+    CycleConfig, CycleReading, Extreme, Extremes, Fluctuations, FourierSeries, Order, Quality, Ranked, Ripple, Summed,
+    Waveform, WaveformConfig,
 };
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::{Fixed, Real};
@@ -119,11 +119,11 @@ pub trait InDouble {
     fn in_double(self) -> Self::Double;
 }
 
-impl<R: Real> InDouble for Series<R> {
-    type Double = Series;
-    fn in_double(self) -> Series {
+impl<R: Real> InDouble for FourierSeries<R> {
+    type Double = FourierSeries;
+    fn in_double(self) -> FourierSeries {
         let orders = self.orders.map(|order| Order { cos: order.cos.into(), sin: order.sin.into() });
-        Series { mean: self.mean.into(), orders }
+        FourierSeries { mean: self.mean.into(), orders }
     }
 }
 
@@ -138,10 +138,10 @@ impl<R: Real> InDouble for Fluctuations<R> {
     }
 }
 
-impl<R: Real> InDouble for Reading<R> {
-    type Double = Reading<f64>;
-    fn in_double(self) -> Reading<f64> {
-        Reading {
+impl<R: Real> InDouble for CycleReading<R> {
+    type Double = CycleReading<f64>;
+    fn in_double(self) -> CycleReading<f64> {
+        CycleReading {
             mean: self.mean.into(),
             change: self.change.map(Into::into),
             duration: self.duration.into(),

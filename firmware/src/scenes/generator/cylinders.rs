@@ -6,7 +6,7 @@
 //! Hz, lies at the half order at rated speed, where the flywheel hardly moves: the engine's description has the coupling.
 
 use driveline::drive::{Composition, ConfigOf};
-use driveline::fluctuation::{Coupling, Cylinder, CylinderVerdict, Engine, Waveform};
+use driveline::fluctuation::{Coupling, CylinderReading, CylinderVerdict, Engine, Waveform};
 use driveline::governor::FeedForward;
 use driveline::number::Fixed;
 
@@ -56,7 +56,7 @@ pub fn verdict_word(verdict: CylinderVerdict) -> u32 {
 /// The set's switches, and the cylinders of the last window.
 pub struct Cylinders {
     switches: Switches,
-    found: Option<[Cylinder; CYLINDERS]>,
+    found: Option<[CylinderReading; CYLINDERS]>,
     windows: u32,
 }
 

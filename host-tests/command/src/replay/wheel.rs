@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use driveline::fluctuation::{ToothErrors, ToothWindow};
 use driveline::settings::{Error, Teeth, ToothClock};
-use driveline::wheel::{CycleTimes, Stage, ToothedWheel, ToothedWheelConfig, WheelAngle};
+use driveline::wheel::{CycleTimes, Synchronization, ToothedWheel, ToothedWheelConfig, WheelAngle};
 
 use super::window::{Windowed, Windows, doubt};
 
@@ -216,13 +216,13 @@ fn run<const TEETH: usize, const CYCLE: usize>(
     };
     let (mut known, mut lost, mut last, mut until) = (0, None, first, first);
     for &edge in edges {
-        let was_known = wheel.stage() == Stage::Known;
+        let was_known = wheel.synchronization() == Synchronization::Known;
         // the capture times out before its clock comes round
         if edge - last > std::f64::consts::TAU / LOWEST {
             wheel.lose();
         }
         wheel.tooth(&config, ((edge - first) * rate).round() as u64 as u32);
-        let is_known = wheel.stage() == Stage::Known;
+        let is_known = wheel.synchronization() == Synchronization::Known;
         known += usize::from(is_known);
         if was_known && !is_known && lost.is_none() {
             lost = Some(last);

@@ -1,6 +1,6 @@
 //! The balance quality grade before and after, of the rotor and at each bearing.
 
-use driveline::balancing::{Complex, Error, RigidUnbalance, Tolerance, degrees, two_planes};
+use driveline::balancing::{BalanceTolerance, Complex, Error, RigidUnbalance, degrees, two_planes};
 use serde::Serialize;
 
 use crate::machine_file::balance::{Along, BalanceFile};
@@ -63,7 +63,8 @@ pub struct Bearing {
 pub fn grade(file: &BalanceFile, wanted: &[Complex<f64>], placed: &[Complex<f64>]) -> Result<Option<Grade>, Error> {
     let Some(rotor) = &file.rotor else { return Ok(None) };
     let Some(unbalance) = file.weight_unit.unbalance(rotor.radius) else { return Ok(None) };
-    let tolerance = Tolerance { grade: rotor.grade, mass: rotor.mass, speed: rotor.rpm * std::f64::consts::TAU / 60.0 };
+    let tolerance =
+        BalanceTolerance { grade: rotor.grade, mass: rotor.mass, speed: rotor.rpm * std::f64::consts::TAU / 60.0 };
     let now: f64 = wanted.iter().map(|weight| weight.norm() * unbalance).sum();
     let left: f64 = wanted.iter().zip(placed).map(|(wanted, placed)| (wanted - placed).norm() * unbalance).sum();
     let (before, after) = (tolerance.judge(now)?, tolerance.judge(left)?);
@@ -97,7 +98,7 @@ fn parts(file: &BalanceFile, along: &Along, unbalance: f64, wanted: &[Complex<f6
 /// The tolerance split between the bearings, and the planes' unbalances resolved into them.
 fn bearings(
     file: &BalanceFile,
-    tolerance: &Tolerance<f64>,
+    tolerance: &BalanceTolerance<f64>,
     along: &Along,
     unbalance: f64,
     wanted: &[Complex<f64>],
