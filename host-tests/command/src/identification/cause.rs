@@ -7,8 +7,8 @@ use super::model::Motion;
 use super::refusal::{LEAST, Refusal};
 use super::spectrum::Line;
 
-/// Torque in phase with the acceleration, of their sizes, below which the torque has the other sign. It is one of a free
-/// inertia; friction, a swing or a dead time make it smaller.
+/// Torque in phase with the acceleration, weighted by torque and speed, below which the torque has the other sign. It is
+/// one of a free inertia; friction, a swing or a dead time make it smaller, which turns the highest lines most.
 const AGAINST: f64 = -0.1;
 /// Share of the motion that a rigid machine may leave unexplained.
 const RIGID: f64 = 0.1;
@@ -75,7 +75,7 @@ impl Pair {
 
 fn in_phase(pairs: &[Pair]) -> f64 {
     let sums = pairs.iter().map(|Pair { s, torque, speed }| {
-        let product = torque.conj() * s * speed;
+        let product = torque.conj() * s.unscale(s.norm()) * speed;
         [product.re, product.norm()]
     });
     let [with, all] = sums.fold([0.0; 2], |[with, all], [re, size]| [with + re, all + size]);

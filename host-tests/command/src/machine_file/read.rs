@@ -493,8 +493,12 @@ pub fn not_toml(source: Source<'_>, error: &toml::de::Error) -> Diagnostic {
     let found = if found.is_empty() { "nothing more".to_owned() } else { format!("`{}`", printable(&found, 40)) };
     let before = source.text.get(..span.start).unwrap_or_default();
     let mut digits = before.chars().rev().take(1).chain(rest.chars().skip(1).take(1));
+    let is_word = before.trim_end().ends_with('=') && rest.starts_with(|c: char| c.is_alphanumeric() || c == '.');
     let expected = if rest.starts_with(',') && digits.all(|digit| digit.is_ascii_digit()) {
         "a number without commas, its decimal sign a point".to_owned()
+    } else if is_word {
+        // the parser guesses at a word: quotation marks round a number with its unit, `nan`, `false`
+        "a number as 0.5 or 5e3 without its unit, a text in quotation marks, `true` or `false`".to_owned()
     } else {
         format!("TOML ({})", printable(error.message().lines().next().unwrap_or("").trim(), 160))
     };

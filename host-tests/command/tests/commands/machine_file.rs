@@ -218,8 +218,13 @@ fn what_is_no_toml_is_told_with_its_place() {
     let broken = fault("mass = 12000.0", "mass = 12,000.0");
     assert_eq!((&*broken.key, &*broken.found), ("mass", "`,000.0`"));
     assert_eq!(broken.expected, "a number without commas, its decimal sign a point");
-    let broken = fault("mass = 12000.0", "mass = 12000.0 kg");
-    assert!(broken.found == "`12000.0 kg`" && broken.expected.starts_with("TOML ("), "{broken}");
+    for (value, found) in [("12000.0 kg", "`12000.0 kg`"), ("n5", "`n5`"), ("five", "`five`"), (".5", "`.5`")] {
+        let broken = fault("mass = 12000.0", &format!("mass = {value}"));
+        assert_eq!(broken.found, found);
+        assert!(broken.expected.starts_with("a number as 0.5 or 5e3 without its unit"), "{broken}");
+    }
+    let open = fault("mass = 12000.0", "mass = [12000.0");
+    assert!(open.expected.starts_with("TOML ("), "{open}");
     let twice = fault("mass = 12000.0", "mass = 1.0\nmass = 2.0");
     assert!(twice.to_string().contains("duplicate key"), "{twice}");
     assert_eq!(parse("empty.toml", " \n").unwrap_err().found, "an empty file");
