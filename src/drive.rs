@@ -82,11 +82,9 @@ pub struct Limits<N: Number> {
     /// Largest predicted turn in a tick for which an unchanged angle is plausible, in the unit of
     /// [`Number::less_turn`].
     pub frozen_turn: N,
-    /// Ticks without a usable angle, less those with one, after which the angle counts as lost: at most the ticks of
-    /// half a turn at the largest setpoint, beyond which the angle is ambiguous.
-    ///
-    /// Less those with one, and not in a row: with a wrong speed the predicted angle agrees with the measured one now
-    /// and then by chance.
+    /// Ticks without a usable angle after which it counts as lost: at most the ticks of half a turn at the largest
+    /// setpoint, beyond which the angle is ambiguous. A good angle takes one off: a wrong prediction can match by
+    /// chance.
     pub max_coast: u32,
 }
 
@@ -96,7 +94,7 @@ pub struct Limits<N: Number> {
 #[doc = include_str!("roll.txt")]
 /// type RollDrive = Drive<f32, TwoMassObserver, SpeedLoop>;
 /// static CONFIG: ConfigOf<RollDrive> = RollDrive::configure::<Roll>();
-/// // a limit that is set on site: a changed copy, for as many ticks as it is wanted
+/// // a limit that is set on site: a changed copy of the constants
 /// let mut config = CONFIG;
 /// config.governor.torque_limit = 200.0;
 /// let mut drive = RollDrive::new(&config, 0);

@@ -55,13 +55,13 @@ pub trait Scheduling<M: Machine, D: Composition>: Sized {
     const CONFIG: Self::Config;
     /// The observer that the eccentricity is learnt behind.
     const OBSERVER: PlacedObserver;
-    /// With load and rope of [`Machine::CHAIN`], the motor at rest at `angle` (2^-32 turn).
+    /// Load and rope of [`Machine::CHAIN`], the motor at rest at `angle` (2^-32 turn).
     fn start(angle: u32) -> Self;
-    /// So many ticks have passed.
+    /// Counts the ticks that have passed.
     fn pass(&mut self, _ticks: u32) {}
     /// Counts the rope at the motor's angle (2^-32 turn) and speed (rad/s); where it is known, that is its length (m).
     fn wind(&mut self, _known: Option<f32>, _angle: u32, _speed: f32) {}
-    /// Weighs the load by the load torque (N m), so many seconds after the last time, or takes the known one (kg).
+    /// Weighs the load by the load torque (N m), `seconds` after the last time, or takes the known one (kg).
     fn weigh(&mut self, _seconds: f32, _known: Option<f32>, _load_torque: f32) {}
     /// Gives the constants of observer and governor at load and rope.
     fn constants(&self, _config: &Self::Config, _next: &mut ConfigOf<D>) {}

@@ -9,7 +9,7 @@ pub trait BalancingMemory<const ROWS: usize, const PLANES: usize> {
     /// Failure of the memory.
     type Error;
 
-    /// The record that was kept last; none where there is none that can be read.
+    /// The record that was kept last, if one can be read.
     ///
     /// # Errors
     /// The memory's own.

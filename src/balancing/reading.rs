@@ -58,7 +58,7 @@ impl Phasor {
         Phasor { re: self.re - other.re, im: self.im - other.im }
     }
 
-    /// With the sign of its phase changed.
+    /// The complex conjugate: the phase changes its sign.
     pub fn conjugate(self) -> Phasor {
         Phasor { re: self.re, im: -self.im }
     }

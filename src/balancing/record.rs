@@ -35,7 +35,7 @@ use crate::parameters::Parameters;
 pub struct ProcedureRecord<const WORDS: usize>(Vec<u32, WORDS>);
 
 impl<const WORDS: usize> ProcedureRecord<WORDS> {
-    /// Of a procedure as it is, with words of the firmware's own.
+    /// The record of a procedure as it is, with words of the firmware's own.
     ///
     /// # Errors
     /// [`Error::Size`] where there is no room.

@@ -31,7 +31,7 @@ pub struct RigidUnbalance<T: Scalar> {
 }
 
 impl<T: Scalar> RigidUnbalance<T> {
-    /// Of unbalances along a rotor (kg m), each at its distance from the centre of mass (m).
+    /// Resultant and couple of unbalances along a rotor (kg m), each at its distance from the centre of mass (m).
     ///
     /// # Errors
     /// [`Error::Weight`] with the index of an unbalance, [`Error::Setting`] with that of a distance, that is not a

@@ -255,7 +255,7 @@ where
         Ok(self.state)
     }
 
-    /// What it does.
+    /// The present work.
     pub fn state(&self) -> BalancingState {
         self.state
     }

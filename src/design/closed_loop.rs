@@ -230,11 +230,11 @@ impl Mapped {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Ranges {
-    /// Of the motor side's inertia.
+    /// Inertia on the motor side.
     pub motor_inertia: [f64; 2],
-    /// Of the load side's inertia.
+    /// Inertia on the load side.
     pub load_inertia: [f64; 2],
-    /// Of the stiffness.
+    /// Stiffness.
     pub stiffness: [f64; 2],
 }
 

@@ -6,11 +6,11 @@ use crate::math::{hypot, sqrt};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct EstimateError {
-    /// Of the shaft torque (N m).
+    /// Shaft torque (N m).
     pub shaft_torque: f64,
-    /// Of the load's speed (rad/s).
+    /// Load speed (rad/s).
     pub load_speed: f64,
-    /// Of the load torque (N m).
+    /// Load torque (N m).
     pub load_torque: f64,
 }
 

@@ -72,7 +72,7 @@ impl Actuator {
 pub struct LoadFeedForward {
     /// The share, from 0 to 1.
     pub share: f64,
-    /// By how much the estimate is late, as a first-order lag (s).
+    /// Delay of the estimate, as a first-order lag (s).
     pub lag: f64,
 }
 
@@ -89,9 +89,9 @@ impl LoadFeedForward {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct VirtualInertia {
-    /// Of the machine's total inertia, from 0 to 1.
+    /// Share of the machine's total inertia, from 0 to 1.
     pub share: f64,
-    /// By how much the estimate of the load torque is late, as a first-order lag (s).
+    /// Delay of the load torque's estimate, as a first-order lag (s).
     pub lag: f64,
 }
 

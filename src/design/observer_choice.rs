@@ -26,9 +26,9 @@ pub struct LoadCycle {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Requirement {
-    /// Of the shaft torque, over its peak.
+    /// Error of the shaft torque, over its peak.
     pub shaft_torque: f64,
-    /// Of the load's speed, over rated speed.
+    /// Error of the load speed, over rated speed.
     pub load_speed: f64,
 }
 
@@ -100,7 +100,7 @@ pub struct ObserverSelection {
 }
 
 impl ObserverSelection {
-    /// By how much the errors of one mass may exceed those of two masses: less than either is predicted to.
+    /// Errors of one mass over those of two masses up to which it is selected: closer than either is predicted.
     pub const AS_GOOD: f64 = 1.05;
 
     /// The selection over the tolerances of machine, motor and encoder, by the predicted errors of both observers: one

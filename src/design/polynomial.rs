@@ -60,7 +60,7 @@ impl Polynomial {
         Self::new([factor]).times(self)
     }
 
-    /// Times delta, so many times over.
+    /// Times a power of delta.
     pub(super) const fn raised(&self, times: usize) -> Self {
         let mut raised = Self { coefficient: [0.0; CAPACITY], degree: self.degree + times };
         each!(k, 0.., k <= self.degree && k + times < CAPACITY, {

@@ -64,9 +64,9 @@ pub struct Supervision {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadStep {
-    /// By how much (N m, at the motor).
+    /// Change (N m, at the motor).
     pub torque: f64,
-    /// Within which time (s).
+    /// Time that it takes (s).
     pub rise: f64,
 }
 

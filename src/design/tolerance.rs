@@ -24,7 +24,7 @@ impl Spread {
     /// Known exactly.
     pub const NONE: Self = Self { min: 1.0, max: 1.0 };
 
-    /// By so much either way, as a fraction.
+    /// A deviation either way, as a fraction.
     #[must_use]
     pub const fn within(fraction: f64) -> Self {
         Self { min: 1.0 - fraction, max: 1.0 + fraction }
@@ -42,7 +42,7 @@ impl Spread {
         (low * low + low * high + high * high) / 3.0
     }
 
-    /// The middle of the range and so many half ranges.
+    /// The middle of the range plus a number of half ranges.
     pub(super) const fn mean_plus(&self, halves: f64) -> f64 {
         0.5 * (self.min + self.max + halves * (self.max - self.min))
     }

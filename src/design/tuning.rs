@@ -15,7 +15,7 @@ use crate::math::sqrt;
 pub struct Rate(f64);
 
 impl Rate {
-    /// A rate of so many ticks a second.
+    /// A rate in ticks a second.
     #[must_use]
     pub const fn hz(rate: u32) -> Self {
         Self(rate as f64)
@@ -67,7 +67,7 @@ pub struct Encoder {
 }
 
 impl Encoder {
-    /// An encoder of so many lines, each read as four counts.
+    /// An encoder by its lines, each read as four counts.
     #[must_use]
     pub const fn lines(lines: u32) -> Self {
         Self { counts: 4 * lines as u64, amplitudes: [0.0; 2], periods: lines, jitter: 0.0 }
@@ -78,13 +78,13 @@ impl Encoder {
         self.periods > 1 && self.periods < 32 && self.counts == 4 * self.periods as u64
     }
 
-    /// An encoder or resolver of so many counts a turn.
+    /// An encoder or resolver by its counts a turn.
     #[must_use]
     pub const fn counts(counts: u32) -> Self {
         Self { counts: counts as u64, amplitudes: [0.0; 2], periods: 1, jitter: 0.0 }
     }
 
-    /// With an interpolation error: its amplitude as a fraction of a signal period, and the signal periods on a turn.
+    /// Adds an interpolation error: its amplitude as a fraction of a signal period, and the signal periods on a turn.
     /// These are the lines of the scale, or 1 for a resolver or a magnetic encoder of one pole pair.
     #[must_use]
     pub const fn interpolation(mut self, periods: u32, error: f64) -> Self {
@@ -93,7 +93,7 @@ impl Encoder {
         self
     }
 
-    /// With an eccentricity: the amplitude of the angle's error once a turn (rad).
+    /// Adds an eccentricity: the amplitude of the angle's error once a turn (rad).
     #[must_use]
     pub const fn eccentricity(mut self, amplitude: f64) -> Self {
         self.amplitudes[1] = amplitude;
@@ -153,7 +153,7 @@ pub struct Disturbance {
 }
 
 impl Disturbance {
-    /// With a torque whose mean over `time` (s) is accurate to `accuracy` (N m, rms): white noise of one density at
+    /// Sets a torque whose mean over `time` (s) is accurate to `accuracy` (N m, rms): white noise of one density at
     /// every rate, `accuracy sqrt(time/T)` in a tick T.
     ///
     /// A `torque_accuracy` of the same size in a tick at a higher rate claims a better torque than it is: constant,
@@ -199,9 +199,9 @@ impl Disturbance {
 #[derive(Clone, Copy)]
 pub(super) struct Variances {
     pub(super) period: f64,
-    /// Of the measured angle.
+    /// Variance of the measured angle.
     pub(super) angle: f64,
-    /// Of the motor's torque in a tick.
+    /// Variance of the motor's torque in a tick.
     pub(super) torque: f64,
     /// Variance of the load torque's change in a tick.
     pub(super) load_torque: f64,

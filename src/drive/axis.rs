@@ -38,7 +38,7 @@ where
         self.govern(config, &estimate, faults)
     }
 
-    /// [`Drive::tick`] after so many ticks that did not run. `sample.torque` acted during them.
+    /// [`Drive::tick`] after `missed` ticks that did not run. `sample.torque` acted during them.
     ///
     /// Up to [`MADE_UP`] ticks are predicted first ([`Drive::make_up`]). After more than these the estimates go on from
     /// the last prediction and the present angle, without a correction, which raises [`Faults::ANGLE_MISSING`] too.
@@ -57,7 +57,7 @@ where
         Command { torque, faults: faults | found }
     }
 
-    /// Predicts so many ticks that did not run, at most [`MADE_UP`], under the torque that acted during them, and
+    /// Predicts `missed` ticks that did not run, at most [`MADE_UP`], under the torque that acted during them, and
     /// returns [`Faults::TICK_MISSED`]. Call it before the next tick.
     ///
     /// The governor is left as it is: its ramp and its times stand still meanwhile. The measurement of the fluctuation

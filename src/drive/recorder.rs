@@ -13,7 +13,7 @@ use crate::sample::{Command, Estimate, Sample};
 enum Kind {
     #[default]
     Tick,
-    /// A tick after so many that did not run.
+    /// A tick after this number of ticks that did not run.
     After(u32),
     /// Ticks that did not run, before a tick without an angle.
     MadeUp(u32),
@@ -42,7 +42,7 @@ struct Block<D: Composition, const K: usize> {
 /// It records ticks, [`Drive::hold`](super::Drive::hold) and [`Drive::engage`](super::Drive::engage). A change by
 /// [`Recorded::drive_mut`] or [`Drive::switch`](super::Drive::switch) begins a new record.
 ///
-/// A [`Recorded`] drive keeps what each tick was given, and twice in so many ticks its own state. A replay starts from
+/// A [`Recorded`] drive keeps what each tick was given, and its own state every `K` ticks. A replay starts from
 /// such a state and gives the same commands, bit for bit, on the desk as on the board. At the first of the tripping
 /// faults the record is kept as it is, with the fault, until [`Recorded::release`].
 ///

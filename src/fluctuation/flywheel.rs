@@ -74,7 +74,7 @@ pub struct Balance {
     /// Inertia over the angle of the cycle, referred to the motor (kg m2): [`FourierSeries::constant`], or
     /// [`FourierSeries::from_samples`] of a table.
     pub inertia: FourierSeries,
-    /// By how much the driving torque falls with the speed (N m s/rad), 0 for a constant one.
+    /// Fall of the driving torque with the speed (N m s/rad), 0 for a constant one.
     pub slope: f64,
 }
 

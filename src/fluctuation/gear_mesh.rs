@@ -45,7 +45,7 @@ impl Sideband {
         Sideband { order, shaft_turns, motor_turns }
     }
 
-    /// Periods on a turn of the motor that has so many teeth.
+    /// Periods on a turn of a motor with `teeth` teeth.
     pub const fn periods(&self, teeth: u32) -> f64 {
         teeth as f64 + self.order as f64 * self.shaft_turns as f64 / self.motor_turns as f64
     }

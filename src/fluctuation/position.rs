@@ -148,7 +148,7 @@ impl Position {
         self.start = self.start.wrapping_sub(cycle.length);
     }
 
-    /// Counts so many segments further.
+    /// Counts a number of segments further.
     #[inline(always)]
     pub fn count(&mut self, steps: i32) {
         self.segment = self.segment.wrapping_add(steps as u32);
@@ -208,7 +208,7 @@ impl Position {
         (within as i32).div_euclid((cycle.length as i32).max(1)) as u32
     }
 
-    /// Goes so many segments further.
+    /// Goes a number of segments further.
     #[inline(always)]
     pub fn jump(&mut self, cycle: &CycleConfig, steps: u32) {
         self.start = self.start.wrapping_add(steps.wrapping_mul(cycle.length));

@@ -65,13 +65,13 @@ impl<R: Real> FourierSeries<R> {
         FourierSeries { mean: value, ..FourierSeries::default() }
     }
 
-    /// Of a table of values at evenly spaced angles over the cycle, the first at theta = 0 and the last one step before
+    /// The series of values at evenly spaced angles over the cycle, the first at theta = 0 and the last one step before
     /// 2 pi; orders below half of the table's length.
     pub fn from_samples(values: &[R]) -> Self {
         FourierSeries::sampled(values.iter().copied(), values.len(), R::ZERO, values.len().saturating_sub(1) / 2)
     }
 
-    /// Of `count` values at evenly spaced angles, the first `offset` steps from theta = 0.
+    /// The series of `count` values at evenly spaced angles, the first `offset` steps from theta = 0.
     pub(super) fn sampled(values: impl Iterator<Item = R>, count: usize, offset: R, highest: usize) -> Self {
         let mut series = FourierSeries::default();
         let share = R::ONE / R::count(count.max(1) as u32);
@@ -172,7 +172,7 @@ impl<R: Real> FourierSeries<R> {
         derived
     }
 
-    /// Of values at evenly spaced angles from theta = 0, with orders up to `highest`.
+    /// The series of values at evenly spaced angles from theta = 0, with orders up to `highest`.
     #[inline(never)]
     pub(super) fn of(values: &Grid<R>, circle: &Circle<R>, highest: usize) -> Self {
         let mut series = FourierSeries::default();

@@ -52,7 +52,7 @@ pub struct ToothWindow<const TEETH: usize> {
     missed: u32,
 }
 
-/// By how much each tooth passes later than its place would (rad), 2 pi to the cycle, less the first's.
+/// Delay of each tooth behind its place (rad), 2 pi to the cycle, less the first's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ToothErrors<const TEETH: usize>([f32; TEETH]);

@@ -189,7 +189,7 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
         core::hint::black_box(self.bins.as_slice())
     }
 
-    /// By how much the ticks counted up to the end of each bin differ from the waveform.
+    /// Ticks counted up to the end of each bin, less those of the waveform.
     fn left(&self, slowness: &FourierSeries<N::Real>, highest: usize) -> Left<N::Real> {
         let total = self.kept().iter().fold(0_u32, |sum, bin| sum.wrapping_add(bin.ticks));
         let (mut counted, mut left) = (0_u32, Left::new(highest));
@@ -329,7 +329,7 @@ impl<R: Real> Part<R> {
         ((a + re) / self.speed, (b + im) / self.speed)
     }
 
-    /// By how much the sum over the ticks of e^(j n theta) is beyond its integral, up to here: the integral's
+    /// Sum over the ticks of e^(j n theta) less its integral, up to here: the integral's
     /// antiderivative times `x/sin x` less 1, with x half of the order's turn in a tick.
     fn sampled(&self, ripple: &FourierSeries<R>, n: i32) -> (R, R) {
         let n = R::whole(n);

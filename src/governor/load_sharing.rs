@@ -68,9 +68,9 @@ pub struct LoadSharingConfig<N: Number> {
 #[repr(C)]
 pub struct LoadSharing<N, const MOTORS: usize> {
     bias: N,
-    /// Of each motor from the mean (2^-32 turn).
+    /// Deviation of each motor from the mean (2^-32 turn).
     deviation: [i32; MOTORS],
-    /// Of the encoders' zeros from the first one's (2^-32 turn).
+    /// The encoders' zeros, less the first one's (2^-32 turn).
     zero: [u32; MOTORS],
     /// The deviation after the lag (2^-32 turn).
     lagged: [i32; MOTORS],

@@ -41,7 +41,7 @@ impl<E: fmt::Debug> fmt::Display for Error<E> {
 
 impl<E: fmt::Debug> core::error::Error for Error<E> {}
 
-/// What was found.
+/// The result of [`Store::load`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Loaded<P> {
@@ -204,7 +204,7 @@ impl<F: NorFlash> Store<F> {
     }
 }
 
-/// What was found.
+/// The newest record, and what its search met.
 struct Newest<P, E> {
     loaded: Loaded<P>,
     /// The record that a save must leave alone.

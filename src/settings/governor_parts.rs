@@ -28,8 +28,7 @@ pub(super) const LIMIT: &str = "the torque limit of the governor must be positiv
 const DRIFT: &str = "the rounding of fixed point would move the integral by more than 1 % of the torque limit in 400 \
     ticks: lower the bandwidth, raise the torque limit, or take f32";
 const MODES: &str = "the speeds of the sequencer must be standstill < underspeed < overspeed, none of them negative, \
-    the \
-    shaft's torque positive, all finite and within twice their bases in fixed point";
+    the shaft's torque positive, all finite and within twice their bases in fixed point";
 const TIMES: &str =
     "the times of sequencer and starter must be zero or above and below 2^31 ticks, and the period of a tick positive";
 const ACCELERATION: &str = "the acceleration feedback must be zero or above and finite, and less than twice the torque \

@@ -130,7 +130,7 @@ impl<const TEETH: usize> ToothRecord for CycleTimes<TEETH> {
 }
 
 impl<const TEETH: usize> CycleTimes<TEETH> {
-    /// Takes the finished cycle; none while there is none that was not taken.
+    /// Takes the finished cycle, once.
     pub(super) fn take(&mut self) -> Option<ToothCycle<TEETH>> {
         let [even, odd] = &self.cycles;
         core::mem::take(&mut self.ready).then_some(if self.filling & 1 == 0 { *odd } else { *even })

@@ -124,8 +124,8 @@ impl<R: ToothRecord> ToothedWheel<R> {
 }
 
 impl<const TEETH: usize> ToothedWheel<CycleTimes<TEETH>> {
-    /// Takes the last finished cycle; none where there is none that was not taken. To be called with the capture's
-    /// interrupt off, once a cycle at least: [`ToothCycle::number`] shows cycles that were missed.
+    /// Takes the last finished cycle, once. Call it with the capture's interrupt off, once a cycle at least:
+    /// [`ToothCycle::number`] shows cycles that were missed.
     pub fn take(&mut self) -> Option<ToothCycle<TEETH>> {
         self.record.take()
     }

@@ -12,7 +12,7 @@ use crate::number::Real;
 /// `[sigma]/(j n) + [sigma']/n^2 + ...`: a trend shows in every order.
 #[derive(Clone, Copy, Default)]
 pub(in crate::fluctuation) struct Ramp<R> {
-    /// Of the speed.
+    /// Change of the speed.
     pub acceleration: R,
     /// Change of the slowness.
     pub slowness: R,
