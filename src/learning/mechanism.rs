@@ -57,7 +57,8 @@ impl<const P: usize> MechanismFit<P> {
 
     /// Takes a segment: angles (rad, from the mechanism's zero) and speeds (rad/s) of the crank at its two ends, and
     /// the work of the motor at the crank's shaft (J) between them. The speed counts as straight over the angle. It is
-    /// to be filtered without delay: its noise makes the inertia too small.
+    /// to be filtered without delay: its noise makes the inertia too small. Leave out a segment in which the crank
+    /// stands or turns back, where friction turns round: a few of them cost several percent.
     pub fn segment(&mut self, [from, to]: [f64; 2], [slow, fast]: [f64; 2], work: f64) {
         let mut row = [0.0; P];
         let (kinetic_from, kinetic_to) = (0.5 * slow * slow, 0.5 * fast * fast);

@@ -56,7 +56,10 @@ fn errors(law: &str, noise: &mut Noise) -> [f64; 2] {
     let mut last = SPAN;
     for k in SPAN..seen.len() - SPAN {
         if seen[k] - seen[last] >= RATIO * TAU / 64.0 {
-            fit.segment([last, k].map(|k| seen[k] / RATIO), [last, k].map(speed), works[k] - works[last]);
+            // sharp toggles and cams turn it back on their way to the other speed
+            if seen[last..=k].is_sorted() {
+                fit.segment([last, k].map(|k| seen[k] / RATIO), [last, k].map(speed), works[k] - works[last]);
+            }
             last = k;
         }
     }
@@ -71,20 +74,16 @@ fn errors(law: &str, noise: &mut Noise) -> [f64; 2] {
     [off[0] / most[0], off[1] / most[1]]
 }
 
-/// 100 drawn mechanisms, 20 of each law, with the encoder's counts and 1 % of noise of the torque. The sharpest toggles
-/// and cams swing the speed so far that fewer are within 1 %.
+/// 100 drawn mechanisms, 20 of each law, with the encoder's counts and 1 % of noise of the torque.
 #[test]
 fn mechanisms_are_learnt_from_a_run_at_two_speeds() {
-    let (mut noise, mut within) = (Noise::new(46), 0);
+    let mut noise = Noise::new(46);
     for law in LAWS {
         let all: Vec<_> = (0..20).map(|_| errors(law, &mut noise)).collect();
-        let worst = |of: usize| all.iter().map(|off| off[of]).fold(0.0, f64::max);
-        println!("{law}: inertia {:.4}, weight {:.4}", worst(0), worst(1));
-        within += all.iter().filter(|off| off[0] < 0.01).count();
-        assert!(worst(0) < 0.01 || law == "toggle" || law == "cam", "{law}: {}", worst(0));
+        let worst = [0, 1].map(|of| all.iter().map(|off| off[of]).fold(0.0, f64::max));
+        println!("{law}: inertia {:.4}, weight {:.4}", worst[0], worst[1]);
+        assert!(worst[0] < 0.01, "{law}: {worst:?}");
     }
-    println!("{within} of 100 within 1 %");
-    assert!(within >= 90, "{within}");
 }
 
 #[test]
