@@ -6,7 +6,7 @@ use super::scalar::Complex;
 #[derive(Clone, Copy, Debug, PartialEq)]
 // Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub enum HeadPosition<const PLANES: usize = 1> {
-    /// At these weights (kg m), as measured.
+    /// At these weights (kg m), as measured; one that cannot be is taken for `Moving`.
     At([Complex<f32>; PLANES]),
     /// It moves, or its position is not valid yet.
     Moving,

@@ -291,7 +291,7 @@ where
 
     /// Power is on: to the weights of the record, or where the head stands.
     fn start(&mut self) -> Result<(), BalancingFault<H::Error, K::Error>> {
-        match self.head.position().map_err(BalancingFault::Head)? {
+        match self.position()? {
             HeadPosition::Moving => {}
             HeadPosition::At(at) if self.dirty => {
                 self.record.weights = at;
@@ -310,6 +310,14 @@ where
             }
         }
         Ok(())
+    }
+
+    /// Where the head stands; one that is no number or beyond its capacity by a tenth is not valid yet.
+    fn position(&mut self) -> Result<HeadPosition<PLANES>, BalancingFault<H::Error, K::Error>> {
+        let position = self.head.position().map_err(BalancingFault::Head)?;
+        let HeadPosition::At(at) = &position else { return Ok(position) };
+        let valid = at.iter().zip(&self.design.capacity).all(|(at, most)| size(*at) <= 1.1 * most);
+        Ok(if valid { position } else { HeadPosition::Moving })
     }
 
     /// Whether weights are the same, within a hundredth of the capacity.

@@ -27,7 +27,7 @@ where
     ) -> Result<(), BalancingFault<H::Error, K::Error>> {
         self.state = BalancingState::Moving;
         let late = ticks as f32 > self.design.travel * M::RATE_HZ as f32;
-        let position = self.head.position().map_err(BalancingFault::Head)?;
+        let position = self.position()?;
         self.measured = position != HeadPosition::Unmeasured;
         match position {
             HeadPosition::At(at) if self.near(&at, &to) => self.arrive(),

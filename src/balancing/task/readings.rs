@@ -35,8 +35,7 @@ where
         config: &PhasorsConfig<N, ROWS>,
         phasors: &Phasors<ROWS, EDGES, N>,
     ) -> Result<(), BalancingFault<H::Error, K::Error>> {
-        let position = self.head.position().map_err(BalancingFault::Head)?;
-        if let HeadPosition::At(at) = position
+        if let HeadPosition::At(at) = self.position()?
             && !self.near(&at, self.in_run.weights())
         {
             // the head has moved by itself, or the stuck one has come loose

@@ -402,6 +402,29 @@ fn a_record_is_remembered_or_refused() {
     }
 }
 
+/// A head whose first positions cannot be, as of a sensor that wakes up: it is neither sent there nor is that remembered.
+#[test]
+fn a_position_that_cannot_be_is_waited_for() {
+    struct Waking(Vec<f32>);
+    impl BalancingHead for Waking {
+        type Error = core::convert::Infallible;
+        fn set(&mut self, to: &[Complex<f32>; 1]) -> Result<(), Self::Error> {
+            panic!("sent to {to:?}")
+        }
+        fn position(&mut self) -> Result<HeadPosition, Self::Error> {
+            Ok(HeadPosition::At([Complex::new(self.0.pop().unwrap_or(5e-4), 0.0)]))
+        }
+    }
+    let (mut memory, mut drive): (Memory, _) = (None, GrinderDrive::new(&CONFIG, 0));
+    let head = Waking(vec![1.0, f32::INFINITY, f32::NAN]);
+    let mut task = BalancingTask::<Grinder, _, _>::new(DESIGN, head, &mut memory).unwrap();
+    for _ in 0..4 {
+        task.run(&mut drive, &CONFIG).unwrap();
+    }
+    assert_eq!(*task.weights(), [Complex::new(5e-4, 0.0)]);
+    assert_eq!(memory.map(|record| record.weights), Some([Complex::new(5e-4, 0.0)]));
+}
+
 struct Flash([u8; 4096]);
 
 impl ErrorType for Flash {
