@@ -170,13 +170,8 @@ impl ClosedLoop {
         let nyquist = core::f64::consts::PI / self.period;
         let mut found = Margins::NONE;
         open.sweep(&mut found, 1e-2 * self.slowest, nyquist, 1000);
-        // Finer about each resonance, where a lightly damped shaft turns the response quickly.
         each!(k, 0..plant.count, {
-            let frequency = sqrt(plant.vibration[k].square);
-            let (from, to) = (0.9 * frequency, 1.1 * frequency);
-            if to < nyquist {
-                open.sweep(&mut found, from, to, 1000);
-            }
+            open.sweep_about(&mut found, sqrt(plant.vibration[k].square), nyquist, 200);
         });
         // By the poles: a frequency response may miss a resonance that is sharp enough.
         found.gain_up = edge(&Varied::Gain(&numerator, &denominator), true);

@@ -129,6 +129,19 @@ impl OpenLoop {
         });
     }
 
+    /// The same about a resonance (rad/s), the finer, the closer to it: a lightly damped shaft turns the
+    /// response quickly.
+    pub(super) const fn sweep_about(&self, found: &mut Margins, resonance: f64, nyquist: f64, points: u32) {
+        let mut width = 0.1;
+        while width > 1e-7 {
+            let (from, to) = ((1.0 - width) * resonance, (1.0 + width) * resonance);
+            if to < nyquist {
+                self.sweep(found, from, to, points);
+            }
+            width *= 0.1;
+        }
+    }
+
     /// Frequency between two at which the imaginary part changes sign, or the gain passes 1.
     const fn bisect(&self, mut low: f64, mut high: f64, imaginary: bool) -> f64 {
         let below = self.is_low(low, imaginary);

@@ -67,3 +67,33 @@ fn an_undamped_vibration_that_the_motor_does_not_feel_is_no_instability() {
     println!("{found:?}");
     assert!(found.gain_up > 1.0);
 }
+
+/// A second vibration of hardly any damping: its circle passes -1 between two frequencies that are 2e-4 apart. The
+/// distance is that of a model in numpy (matrices of the chain, `expm`, the filter by `solve_discrete_are`), in steps of
+/// a fiftieth of the way to the resonance and refined; the margins must agree with each other as well.
+#[test]
+fn a_narrow_vibration_is_not_passed_over() {
+    let chain = Chain::motor(Inertia(18.043_720_429_844_353))
+        .shaft(Stiffness(39_005.697_006_383_07), Damping(0.021_847_896_412_264_096))
+        .rotor(Inertia(5.227_159_749_260_714))
+        .shaft(Stiffness(199_533.736_972_840_94), Damping(0.302_283_275_314_516_43))
+        .rotor(Inertia(19.224_912_030_620_423));
+    let (two, rate) = (chain.reduce(Match::ResonanceAntiresonance), Rate::hz(16_000));
+    let disturbance = Disturbance {
+        torque_accuracy: 2.281_718_208_360_777_7,
+        load_torque_step: 164.696_016_154_577_9,
+        within: 0.179_810_729_986_653_34,
+    };
+    let observer = two.observer(rate, Encoder::lines(321), disturbance);
+    let speed_loop = two.speed_loop(rate, SpeedLoopTuning::with_bandwidth(&two, 0.3));
+    let actuator = Actuator { delay: 0.000_125, lag: 1.0 / (core::f64::consts::TAU * 800.0) };
+    let closed = ClosedLoop::of(&observer, &speed_loop, actuator).unwrap();
+    let found = closed.margins(&Plant::of_modes(chain.total_inertia(), &chain.modes())).unwrap();
+    println!("{found:?}");
+    assert!(
+        found.modulus <= 1.0 - 1.0 / found.gain_up && found.modulus <= 2.0 * (0.5 * found.phase).sin(),
+        "{found:?}"
+    );
+    // 2 %: the modal damping, and steps of a tenth at worst
+    assert!((found.modulus / 0.085_054 - 1.0).abs() < 0.02, "{found:?}");
+}
