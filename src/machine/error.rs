@@ -72,7 +72,6 @@ sentences! {
     CharacteristicPoints => "speeds of the prime mover's characteristic must differ, its speeds and torques be finite",
     Overload => "overload capacity of the motor must be above 1 and finite (breakdown torque over rated torque)",
     InductionSpeed => "rated speed of the induction motor must lie between zero and its synchronous speed (rad/s)",
-    RotorResistance => "rotor resistance must be positive and finite (whole over own resistance)",
     DirectCurrent => "voltage, armature resistance and flux of the direct-current motor must be positive and finite \
         (V, ohm, V s or H)",
     CombustionEngine => "rated torque and speeds of the combustion engine must be positive and finite, rising from \

@@ -25,7 +25,8 @@ pub struct Induction {
     pub synchronous: f64,
     /// Largest torque (N m).
     pub breakdown: f64,
-    /// Slip of the largest torque: with much resistance in the rotor above 1.
+    /// Slip of the largest torque. It grows with the rotor's whole resistance over its own [derived; shape: Wang 1989
+    /// §1-2], above 1 with much of it.
     pub breakdown_slip: f64,
 }
 
@@ -52,24 +53,6 @@ impl Induction {
         let slip = (synchronous.0 - rated_speed.0) / synchronous.0;
         let steepness = overload + sqrt((overload - 1.0) * (overload + 1.0));
         Ok(Self { synchronous: synchronous.0, breakdown: overload * rated.0, breakdown_slip: slip * steepness })
-    }
-
-    stops! {
-        /// The same motor with resistors at its slip rings: the rotor's whole resistance over its own. The breakdown
-        /// torque stays, its slip grows by that factor [derived; shape: Wang 1989 §1-2].
-        pub const fn rotor_resistance(self, factor: f64) -> Self = try_rotor_resistance
-    }
-
-    /// [`rotor_resistance`](Self::rotor_resistance), with an error for a value out of range.
-    ///
-    /// # Errors
-    /// [`Error::RotorResistance`].
-    pub const fn try_rotor_resistance(mut self, factor: f64) -> Result<Self, Error> {
-        if !positive(factor) {
-            return Err(Error::RotorResistance);
-        }
-        self.breakdown_slip *= factor;
-        Ok(self)
     }
 
     /// Torque at a speed.

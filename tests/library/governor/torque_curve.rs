@@ -41,7 +41,7 @@ fn points_lie_on_kloss_s_curve() {
     };
     let a = 2.09 / 157.08 * (2.5 + f64::sqrt(5.25));
     meets(Characteristic::Induction(motor), [0.0, 60.0, 100.0, 132.0, 147.0, 151.0, 154.0, 157.08, 158.0], kloss(a));
-    let crane = Characteristic::Induction(motor.rotor_resistance(1.0 / a));
+    let crane = Characteristic::Induction(Induction { breakdown_slip: 1.0, ..motor });
     meets(crane, [0.0, 60.0, 110.0, 157.08], kloss(1.0));
 }
 
