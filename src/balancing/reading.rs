@@ -171,7 +171,7 @@ impl fmt::Display for ReadingFault {
             ReadingFault::TooFast => {
                 f.write_str("the rotor turns too fast for the tick: fewer than eight ticks on a turn")
             }
-            ReadingFault::Clipped => f.write_str("the sensor was at the end of its range, or gave what is no number"),
+            ReadingFault::Clipped => f.write_str("the sensor was at the end of its range, or gave NaN"),
             ReadingFault::Missing { samples } => write!(f, "samples were missing or not sound, {samples} of them"),
             ReadingFault::SpeedMoved { spread } => {
                 f.write_str("the speed moved by ")?;

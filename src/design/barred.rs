@@ -78,7 +78,7 @@ impl<const K: usize> BarredSpeeds<K> {
     /// [`of_engine`](Self::of_engine), with an error instead of a panic.
     ///
     /// # Errors
-    /// As [`try_new`](Self::try_new); [`Error::Barred`] for a mass that there is not, or a `least` that is not zero or
+    /// As [`try_new`](Self::try_new); [`Error::Barred`] for a mass that the modes lack, or a `least` that is not zero or
     /// above and finite.
     pub const fn try_of_engine<const N: usize>(
         modes: &Modes,

@@ -1,4 +1,4 @@
-//! The flywheel that is still missing, and whether it is one that is missing.
+//! The flywheel for a permissible speed fluctuation, and whether one is the remedy.
 //!
 //! For a constant inertia J the work of the outer torques over the cycle swings by A_max, and delta is A_max/(J
 //! omega_m^2) with the arithmetic mean [Notes ch. 5]; a flywheel of A_max/(omega_m^2 [delta]) less J does. Where

@@ -39,7 +39,7 @@ impl ResistorStarter {
     }
 
     /// A tick at a speed (rad/s): the resistors that are cut out from now on, at most one more than before. A speed
-    /// that is no number cuts out none.
+    /// that is NaN cuts out none.
     #[inline(always)]
     pub fn tick<N: Number, const STEPS: usize>(&mut self, config: &ResistorStarterConfig<N, STEPS>, speed: N) -> u32 {
         let reached = config.speeds.get(self.step as usize).is_some_and(|&at| speed >= at);

@@ -35,7 +35,7 @@ pub struct SoftStarter<N> {
 
 impl<N: Number> SoftStarter<N> {
     /// A tick at the motor's torque (N m): the share of the full voltage from now on, from the initial one to 1. A
-    /// torque that is no number lowers it.
+    /// torque that is NaN lowers it.
     #[inline(always)]
     pub fn tick(&mut self, config: &SoftStarterConfig<N>, torque: N) -> N {
         let next = if torque <= config.limit { self.share + config.step } else { self.share - config.step };

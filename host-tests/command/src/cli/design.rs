@@ -215,7 +215,7 @@ fn words(observer: &str) -> &'static str {
     }
 }
 
-/// Margins that there are not, and why.
+/// "None", with the reason.
 fn none(which: &str, why: Option<&String>) -> String {
     format!("{which}: none: {}\n", why.map_or("", |why| why))
 }
