@@ -5,6 +5,7 @@ mod tune;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use clap::builder::RangedU64ValueParser;
 use clap::{Args, Subcommand};
 
 use super::results::{Destination, all, check, check_writable};
@@ -47,13 +48,13 @@ pub struct Campaign {
     #[arg(required = true)]
     scene: Option<String>,
     /// Number of draws [default: 200; with --tune 40 a point]
-    #[arg(long)]
+    #[arg(long, value_parser = clap::value_parser!(u64).range(1..=MOST_DRAWS))]
     draws: Option<u64>,
     /// Seed of the draws
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// The drive: two-mass or rigid, of a scene a variant as NUMBER/OBSERVER/RATE; or `plain`, a loop without an
-    /// observer [default: the design's choice in f32]
+    /// The drive: two-mass, semi-implicit or rigid, of a scene a variant as NUMBER/OBSERVER/RATE; or `plain`, a loop
+    /// without an observer [default: the design's choice in f32]
     #[arg(long, value_name = "DRIVE")]
     drive: Option<String>,
     /// Range of a factor, as NAME=LOW..HIGH or NAME=VALUE, in place of the scene's; may be repeated
@@ -79,7 +80,7 @@ pub struct Campaign {
     #[arg(long, value_name = "PATH")]
     results: Option<PathBuf>,
     /// Number of threads [default: one a core]
-    #[arg(long, value_name = "COUNT")]
+    #[arg(long, value_name = "COUNT", value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
     threads: Option<usize>,
     /// File of the page [default: report/SCENE-DRIVE-campaign.html]
     #[arg(long, value_name = "PATH")]
@@ -172,12 +173,6 @@ impl Campaign {
 
     fn run(&self, scenes: &[CampaignScene]) -> Result<(), Failure> {
         let draws = self.draws.unwrap_or(if self.tune.is_empty() { DRAWS } else { tune::DRAWS });
-        if draws == 0 || self.threads == Some(0) {
-            return Err(Failure::usage("--draws and --threads must be one or more"));
-        }
-        if draws > MOST_DRAWS {
-            return Err(Failure::usage(format!("--draws must be at most {MOST_DRAWS}, not {draws}")));
-        }
         if !self.tune.is_empty() {
             return self.tune();
         }
