@@ -8,7 +8,7 @@ mod remembered;
 
 use super::error::Error;
 use super::influence::Influence;
-use super::scalar::{Complex, Scalar, real, size, zero};
+use super::scalar::{Complex, Scalar, given, real, size, zero};
 use estimate::{DEVIATIONS, Estimate, INFORMATIVE};
 
 pub use action::{AbortReason, Action, InRunConfig};
@@ -260,12 +260,12 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
         if let Some(reason) = self.aborted {
             return Action::Abort(self.best.1, reason);
         }
-        let numbers = reading.iter().take(self.rows).all(|value| value.re.is_finite() && value.im.is_finite());
-        if reading.len() < self.rows || !numbers {
+        let level = largest(reading, self.rows);
+        let squares = (level * level + variance.max(T::zero())).is_finite();
+        if reading.len() < self.rows || !squares || !reading.iter().take(self.rows).all(|value| given(*value)) {
             // nothing is learnt from this; the next reading may be better
             return Action::Abort(self.home(), AbortReason::NoReading);
         }
-        let level = largest(reading, self.rows);
         let Some(start) = self.start else {
             self.level = level;
             (self.start, self.best) = (Some(level), (level, self.weights));
@@ -353,6 +353,10 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
     }
 
     fn go(&mut self, to: [Complex<T>; PLANES]) -> Action<T, PLANES> {
+        // readings that differ by many decades overflow
+        if !to.iter().all(|weight| given(*weight)) {
+            return self.abort(AbortReason::NoReading);
+        }
         self.installed(&to);
         Action::Set(to)
     }

@@ -1,6 +1,7 @@
 //! Single steps of in-run balancing of one or two planes, from states made by hand.
 
 use super::*;
+use crate::balancing::scalar::noise::Noise;
 
 type One = InRun<f64, 1, 1>;
 type Two = InRun<f64, 2, 2>;
@@ -293,5 +294,33 @@ fn an_abort_has_its_sentence() {
         (AbortReason::Unidentified, "no more than these change by themselves"),
     ] {
         assert!(reason.to_string().contains(part));
+    }
+}
+
+/// Readings, variances and speeds of any size, in single precision, whose squares overflow: no weight is NaN or beyond
+/// its limit, to the rounding of some sums.
+#[test]
+fn garbage_moves_no_head_beyond_its_limit() {
+    let limits = [0.5_f32, 0.7];
+    let config = InRunConfig { probe: 0.01, limits, step: 0.3, bound: 1.3, target: 0.05, forgetting: 0.8, noise: 0.01 };
+    for seed in 0..2_000 {
+        let mut noise = Noise::new(seed);
+        let mut run = InRun::<f32, 3, 2>::new(config, 3, [zero(); 2]).unwrap();
+        let mut any = || (noise.even() * 10_f64.powi((80.0 * noise.even()) as i32)) as f32;
+        for _ in 0..40 {
+            let reading: [Complex<f32>; 3] = core::array::from_fn(|_| Complex { re: any(), im: any() });
+            let weights = match run.advise_at(&reading, any(), 77.0 + any()) {
+                Action::Set(weights) => weights,
+                Action::Abort(weights, _) => {
+                    run.resume(&weights);
+                    weights
+                }
+                Action::Hold => *run.weights(),
+            };
+            for (weight, limit) in weights.iter().zip(limits) {
+                assert!(size(*weight) <= 1.001 * limit, "{seed}: {weight}");
+            }
+            run.installed(&weights);
+        }
     }
 }
