@@ -183,7 +183,7 @@ impl BitOrAssign for Faults {
     }
 }
 
-/// By their names, as the display.
+/// Shows the names, as the display does.
 impl fmt::Debug for Faults {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "Faults({self})")

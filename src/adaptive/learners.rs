@@ -35,7 +35,7 @@ pub struct Learners;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LearnersState<N: Units> {
     calibration: TorqueCalibration<N>,
-    /// Of the last tick, as reported.
+    /// Torque of the last tick, as reported.
     reported: N,
     loss: GearLoss,
     torque: TorqueConstant,
@@ -51,7 +51,7 @@ pub struct LearnersState<N: Units> {
 /// Learners of a drive `D` of the machine `M`: the state of the last slot of an [`Adaptive`](super::Adaptive) drive.
 /// Without learners, `()`, nothing of it is left.
 pub trait Learning<M: Machine, D: Composition>: Sized {
-    /// With what the design has.
+    /// The learners at the values of the design.
     fn start() -> Self;
     /// The torque at the shaft, from the reported one of a tick.
     fn calibrated(&mut self, reported: D::Number) -> D::Number;

@@ -101,7 +101,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize, const TRIALS: usize> Pro
         Ok(Procedure { plan, before: None, baseline: None, trials: Vec::new(), installed: Vec::new() })
     }
 
-    /// With coefficients that are known already: no trial runs.
+    /// Takes known coefficients in place of trial runs.
     ///
     /// # Errors
     /// [`Error::Size`] where they are of other planes or rows, [`Error::PlaneUnknown`].

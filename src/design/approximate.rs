@@ -100,7 +100,7 @@ const fn slow_pole(n: [f64; 4]) -> ((f64, f64), f64) {
 }
 
 impl Fidelity {
-    /// Of the increments `[n11, n12, n21, n22]` over a period.
+    /// The fidelity of the increments `[n11, n12, n21, n22]` over a period.
     const fn of(n: [f64; 4], machine: &TwoMass, period: f64) -> Self {
         let (w2, two_a) = rates(machine);
         let w = sqrt(w2);

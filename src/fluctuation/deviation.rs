@@ -34,7 +34,7 @@ pub(super) fn sensitivity<R: Real>(
     by
 }
 
-/// What the orders leave of the lateness of points over the cycle.
+/// Lateness of points over the cycle that the orders leave.
 pub(super) struct Left<R> {
     highest: u32,
     points: R,

@@ -85,7 +85,7 @@ impl<const LINES: usize> GearMeshConfig<LINES> {
     /// The lines of a mesh of `teeth` on the motor's shaft, in blocks of at least `turns` of the motor.
     ///
     /// # Panics
-    /// With the sentence of [`GearMeshError`]: a compile error in a constant.
+    /// The sentence of [`GearMeshError`]: a compile error in a constant.
     pub const fn new(teeth: u32, lines: &[Sideband; LINES], turns: u32) -> Self {
         match Self::try_new(teeth, lines, turns) {
             Ok(config) => config,

@@ -140,7 +140,7 @@ impl CrankSlider {
 
     /// Mean of J(phi) over a turn (kg m2): the crank drive's inertia in a chain.
     ///
-    /// By 256 equidistant angles, which for a periodic function is exact but for harmonics of 256 and more: below 1e-12
+    /// A sum over 256 even angles: exact for a periodic function but for harmonics of 256 and more, below 1e-12
     /// up to lambda 0.9.
     #[must_use]
     pub const fn mean_inertia(&self) -> Inertia {

@@ -109,7 +109,7 @@ impl FourBar {
         (rocker, [theta, psi], centre)
     }
 
-    /// What the bars move, with the rocker as the tool.
+    /// Inertia of the bars, with the rocker as the tool.
     const fn point(&self, [theta, psi]: [Rates; 2], [x, y]: [Rates; 2]) -> MechanismPoint {
         MechanismPoint { inertia: 0.0, derivative: 0.0, leverage: psi[0] }
             .moving(self.coupler_mass.0, x)

@@ -23,7 +23,7 @@ pub struct MechanismPoint {
 }
 
 impl MechanismPoint {
-    /// With a mass (kg) on a way of these derivatives by the angle (m/rad, m/rad2), or an inertia on an angle.
+    /// Adds a mass (kg) on a way of these derivatives by the angle (m/rad, m/rad2), or an inertia on an angle.
     #[must_use]
     pub(super) const fn moving(mut self, mass: f64, [first, second]: [f64; 2]) -> Self {
         self.inertia += mass * first * first;
@@ -107,7 +107,7 @@ impl Mechanism {
         mechanism
     }
 
-    /// With a constant inertia on the crank's shaft.
+    /// Adds a constant inertia on the crank's shaft.
     #[must_use]
     pub const fn rotor(mut self, inertia: Inertia) -> Self {
         if !not_negative(inertia.0) {
@@ -119,15 +119,15 @@ impl Mechanism {
         self
     }
 
-    /// With a weight: a force (N) against the increase of the tool's way, negative where it acts along it. Of a
-    /// four-bar a torque (N m) against the rocker's angle.
+    /// Sets a weight: a force (N) against the increase of the tool's way, negative where it acts along it. A four-bar
+    /// has a torque (N m) against the rocker's angle.
     #[must_use]
     pub const fn weight(mut self, force: f64) -> Self {
         self.weight = force;
         self
     }
 
-    /// What is wrong with its dimensions.
+    /// The first fault of its dimensions.
     #[must_use]
     pub const fn error(&self) -> Option<Error> {
         self.error

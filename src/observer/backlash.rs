@@ -33,7 +33,7 @@ pub struct FreeFlight<N: Number> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct GapCorrection<N: Number> {
-    /// Of mean speed, v, twist and load torque.
+    /// Corrections of mean speed, v, twist and load torque.
     pub states: [N::Coefficient; 4],
     /// The share of an innovation that is taken off the residual.
     pub angle: N::Coefficient,

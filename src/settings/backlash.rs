@@ -17,7 +17,7 @@ const GAP: &str = "the gap must be positive and finite, and half of it at most t
 /// Constants of the gap beside those of the shaft in contact, scaled to a format.
 struct Added {
     half_gap: f64,
-    /// Of the shaft's law, in the tick in which it is left.
+    /// Coefficients of the shaft's law, in the tick in which it is left.
     leaving: [f64; 3],
     free: FreeFlight<f64>,
     searching: GapCorrection<f64>,

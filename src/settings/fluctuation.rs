@@ -35,14 +35,14 @@ impl Cycle {
 }
 
 impl SpeedErrors {
-    /// Of an observer of two masses.
+    /// Errors of an observer of two masses.
     #[must_use]
     pub const fn of(design: &TwoMassDesign) -> Self {
         let noise = [design.standard_deviation.motor_speed, design.standard_deviation.load_speed];
         SpeedErrors { noise, lag: LoopObserver::TwoMass(design).speed_lag() }
     }
 
-    /// Of an observer of one mass.
+    /// Errors of an observer of one mass.
     #[must_use]
     pub const fn of_rigid(design: &RigidDesign) -> Self {
         SpeedErrors { noise: [design.standard_deviation[1]; 2], lag: LoopObserver::Rigid(design).speed_lag() }

@@ -90,7 +90,7 @@ macro_rules! phasors {
             /// per unit of its base in fixed point). A sample there or beyond is clipped, as one within 1e-6 of it.
             ///
             /// # Panics
-            /// With the sentence of [`PhasorError`]: a compile error in a constant.
+            /// The sentence of [`PhasorError`]: a compile error in a constant.
             pub const fn new(measured: &PhasorSettings, limits: [f64; CHANNELS]) -> Self {
                 match Self::try_new(measured, limits) {
                     Ok(config) => config,

@@ -10,7 +10,7 @@ pub struct Cam<const EDGES: usize> {
     pub tolerance: u32,
 }
 
-/// What the edges of cam and index have shown.
+/// The phase of the cycle, as the edges of cam and index have shown it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Phase {

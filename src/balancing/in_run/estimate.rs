@@ -110,7 +110,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Estimate<T, ROWS, PLANES
         self.confirmed = [false; PLANES];
     }
 
-    /// What the machine may have changed since: the influence is no more certain than a correction needs, and has to be
+    /// Allows for changes of the machine: the influence is no more certain than a correction needs, and has to be
     /// confirmed again. One that was not confirmed is forgotten.
     pub(super) fn distrust(&mut self) {
         if self.confirmed() {
@@ -222,7 +222,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Estimate<T, ROWS, PLANES
         self.now = now;
     }
 
-    /// What a reading of this variance has beside its prediction.
+    /// A reading of this variance less its prediction.
     pub(super) fn innovation(&self, reading: &[Complex<T>], noise: T) -> Innovation<T, ROWS> {
         let mut found = Innovation {
             rows: [zero(); ROWS],

@@ -109,7 +109,7 @@ impl<G, N: Number> Supervised<G, N> {
         }
     }
 
-    /// Of the pair the blocked load: the machine follows the stop.
+    /// Names the blocked load of the pair: the machine follows the stop.
     fn name_blocked(&mut self) {
         self.raised = Faults::from_bits(self.raised.bits() & !Faults::NOT_FOLLOWED.bits());
     }

@@ -38,7 +38,7 @@ impl Shaking {
         self.with_balance_shafts(2.0 * share, 0.0)
     }
 
-    /// With shafts at `n` times the speed that balance a share of the forward part and one of the backward part.
+    /// Adds shafts at `n` times the speed that balance a share of the forward part and one of the backward part.
     #[must_use]
     pub const fn with_balance_shafts(self, forward: f64, backward: f64) -> Self {
         let (f, b) = (1.0 - forward, 1.0 - backward);
