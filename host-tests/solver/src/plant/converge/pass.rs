@@ -57,6 +57,8 @@ pub(in crate::plant) struct Pass<C> {
     close: f64,
     /// The step that the integrator would take next, s.
     step: f64,
+    /// Steps taken, those up to an event included.
+    pub taken: u64,
     live: Option<Live<C>>,
 }
 
@@ -73,7 +75,7 @@ impl<C: Copy> Pass<C> {
     /// With the sizes of the states over the run, to measure errors by.
     pub fn new(scale: &[f64], longest: f64, close: f64) -> Self {
         let tolerance = scale.iter().map(|size| TOLERANCE * size).collect();
-        Self { tolerance, longest, close, step: longest, live: None }
+        Self { tolerance, longest, close, step: longest, taken: 0, live: None }
     }
 
     /// Begins anew: state or equations are not those of the last call's end.
@@ -148,6 +150,7 @@ impl<C: Copy> Pass<C> {
                 continue;
             }
             live.last = method.t() - before;
+            self.taken += 1;
             // a step that the end cut short says nothing of a shorter one
             self.step = if wanted <= whole { method.h() } else { self.step.max(method.h()) };
             if !live.look.guards.is_empty() {
@@ -155,7 +158,8 @@ impl<C: Copy> Pass<C> {
                 let look = Look::of(machine, origin + method.t(), method.y(), SPAN * left);
                 let watch = Watch { pass: self, machine, y, now, left };
                 if let Some((at, change)) = watch.first_change(&live.look, &look, method)? {
-                    *y = self.integrate(machine, y, now, at)?;
+                    let (there, steps) = self.integrate(machine, y, now, at)?;
+                    (*y, self.taken) = (there, self.taken + steps);
                     return Ok(Some((now + at, change)));
                 }
                 live.look = look;
@@ -166,25 +170,26 @@ impl<C: Copy> Pass<C> {
         Ok(None)
     }
 
-    /// The state `length` seconds after `t`, with no event on the way.
+    /// The state `length` seconds after `t`, with no event on the way, and the steps up to it.
     fn integrate<H: Hybrid<Change = C>>(
         &self,
         machine: &H,
         y: &Vec<f64>,
         t: f64,
         length: f64,
-    ) -> Result<Vec<f64>, NotProven> {
+    ) -> Result<(Vec<f64>, u64), NotProven> {
         if length <= 0.0 {
-            return Ok(y.clone());
+            return Ok((y.clone(), 0));
         }
-        let mut method = self.begin(machine, y, t, length)?;
+        let (mut method, mut steps) = (self.begin(machine, y, t, length)?, 0);
         while length - method.t() > 1e-14 * length {
             let h = method.h().min(length - method.t());
             method.set_h(h);
             let taken = method.step(&Onward { machine, origin: t });
             taken.map_err(|e| NotProven::Integrator { time: t, reason: format!("{e:?}") })?;
+            steps += 1;
         }
-        Ok(method.y().clone())
+        Ok((method.y().clone(), steps))
     }
 }
 
@@ -244,12 +249,12 @@ impl<H: Hybrid> Watch<'_, H> {
     }
 
     fn value(&self, index: usize, after: f64) -> Result<f64, NotProven> {
-        let there = self.pass.integrate(self.machine, self.y, self.now, after)?;
+        let (there, _) = self.pass.integrate(self.machine, self.y, self.now, after)?;
         Ok(self.machine.guards(self.now + after, &there)[index].0)
     }
 
     fn slope(&self, index: usize, after: f64) -> Result<f64, NotProven> {
-        let there = self.pass.integrate(self.machine, self.y, self.now, after)?;
+        let (there, _) = self.pass.integrate(self.machine, self.y, self.now, after)?;
         Ok(Look::of(self.machine, self.now + after, &there, SPAN * self.left).slopes[index])
     }
 
@@ -318,7 +323,7 @@ impl<H: Hybrid> Watch<'_, H> {
             Ok::<f64, Error<f64, Vec<f64>>>(self.machine.guards(self.now + at, &there)[index].0)
         });
         if let Ok(near) = near {
-            let there = self.pass.integrate(self.machine, self.y, self.now, near)?;
+            let (there, _) = self.pass.integrate(self.machine, self.y, self.now, near)?;
             let look = Look::of(self.machine, self.now + near, &there, 1e-6 * self.left);
             let (guard, slope) = (look.guards[index], -look.slopes[index]);
             let off = guard.0 / slope;

@@ -196,9 +196,9 @@ trait Again {
     fn restart(&mut self, sample: &[f64], time: f64);
     /// Does what is no tick.
     fn change(&mut self, step: Step);
-    /// Steps that it takes at least for `dt`, s, each with an error of its own.
-    fn steps(&self, _dt: f64) -> f64 {
-        1.0
+    /// Steps that it has taken, each with an error of its own; those that begin anew after an event included.
+    fn steps(&self) -> u64 {
+        0
     }
     /// Goes on by `dt` to the time `end`, both in s; the sample there.
     fn advance(&mut self, dt: f64, end: f64) -> Result<Vec<f64>, NotProven>;
@@ -220,7 +220,7 @@ fn follow<A: Again>(
 ) -> Result<Followed, NotProven> {
     let mut followed = Followed::default();
     let mut growth = Growth::of(run);
-    let (mut sample, mut before, mut begun) = (0, run.start.now, run.start.now);
+    let (mut sample, mut before, mut begun, mut taken) = (0, run.start.now, run.start.now, 0);
     for (index, step) in run.steps.iter().enumerate() {
         done(index as f64 / run.steps.len() as f64);
         let dt = match *step {
@@ -234,12 +234,13 @@ fn follow<A: Again>(
         let mut largest = run.deviation(sample, before, &again.advance(dt, time)?, sizes);
         let refused = |found, expected| NotProven::Deviates { from: A::NAME, found, expected, time };
         // what takes the errors of the steps so far beyond the bound
-        let grown = BOUND / (FRESH * again.steps(time - begun).max(GATHERED));
+        let grown = BOUND / (FRESH * ((again.steps() - taken) as f64).max(GATHERED));
         if pieces && largest > BOUND && begun < before && growth.until(run, sizes, index) > grown {
             again.restart(&run.samples[sample - 1], before);
+            taken = again.steps();
             largest = run.deviation(sample, before, &again.advance(dt, time)?, sizes);
             growth.begin(run, index, &run.samples[sample - 1]);
-            let fresh = FRESH * again.steps(dt).max(10.0);
+            let fresh = FRESH * ((again.steps() - taken) as f64).max(10.0);
             if largest > fresh && largest > fresh * growth.until(run, sizes, index) {
                 return Err(refused(largest, fresh));
             }
@@ -373,8 +374,8 @@ impl Again for Integrator<'_> {
         self.pass.anew();
     }
 
-    fn steps(&self, dt: f64) -> f64 {
-        dt / self.pass.longest
+    fn steps(&self) -> u64 {
+        self.pass.taken
     }
 
     /// To the clock of the run, which does not gather the rounding of its ticks: teeth that meet 1e-12 s late show.

@@ -47,8 +47,9 @@ impl Motion {
             let stretch = self.stretch(self.longest(left));
             let found = if events < MOST_EVENTS { self.first_event(&stretch) } else { None };
             let share = found.map_or(1.0, |(share, _)| share);
-            self.watches(&stretch, share);
+            // what an event ends where it began was not there
             if share > 0.0 {
+                self.watches(&stretch, share);
                 self.state = stretch.at(share);
             }
             let whole = share == 1.0 && stretch.length >= left;
@@ -67,6 +68,15 @@ impl Motion {
                     self.log(EventKind::Unresolved, Place::Node(0), 0);
                 }
             }
+        }
+    }
+
+    /// What a switch of stiffness opens or closes, or turns round, now.
+    pub(super) fn switch(&mut self) {
+        for _ in 0..MOST_EVENTS {
+            let Some((0.0, action)) = self.first_event(&self.stretch(self.longest(1.0))) else { return };
+            self.fired += 1;
+            self.fire(action);
         }
     }
 
@@ -109,6 +119,10 @@ impl Motion {
                 1 => {
                     let left = if link.damping > 0.0 { contact * TRAILING } else { 0 };
                     add(Action::Contact(l, left), force.guard(side, 0.0));
+                    if left != 0 && link.jumps() {
+                        // an error parts flanks that close in on each other
+                        add(Action::Contact(l, 0), x.guard(side, -reach));
+                    }
                 }
                 _ => {
                     add(Action::Contact(l, contact.signum()), force.guard(-side, 0.0));

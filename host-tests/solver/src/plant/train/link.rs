@@ -126,6 +126,11 @@ impl Link {
         !self.rope && self.gap == 0.0
     }
 
+    /// Whether its force may change at once, with its stiffness and its tooth error.
+    pub(super) fn jumps(&self) -> bool {
+        matches!(self.variation, Some(Variation::Zones(_) | Variation::Teeth(_)))
+    }
+
     /// The elongation beyond the tooth error at which the force of this contact is zero at rest.
     pub(super) fn origin(&self, contact: i8) -> f64 {
         if self.rope { self.gap } else { 0.5 * self.gap * f64::from(contact.signum()) }

@@ -8,7 +8,7 @@ use super::rigid_gear::Flow;
 use super::signal::Watch;
 use super::state::{Mode, State};
 use super::stretch::Stretch;
-use super::{Coordinate, Friction, Source, Train, Variation, coupling};
+use super::{Coordinate, Friction, Link, Source, Train, Variation, coupling};
 use crate::plant::error::PlantError;
 use crate::plant::event::Event;
 use crate::plant::vibration::{Network, Spring};
@@ -227,12 +227,16 @@ impl Motion {
         let (clock, lost) = self.clock;
         let step = dt + lost;
         let end = clock + step;
-        let first = self.corner_after(self.now).filter(|&corner| corner < end);
-        if first.is_some() || !self.leap(dt, end) {
-            while let Some(corner) = self.corner_after(self.now).filter(|&corner| corner < end) {
-                self.run_to(corner);
+        let mut corner = self.corner_after(self.now);
+        if corner.is_some_and(|corner| corner < end) || !self.leap(dt, end) {
+            while let Some(at) = corner.filter(|&corner| corner < end) {
+                self.run_to(at);
+                corner = self.corner_after(self.now);
             }
             self.run_to(end);
+            if corner == Some(end) && self.train.links.iter().any(Link::jumps) {
+                self.switch();
+            }
             self.look_again();
         }
         // Neumaier's sum
@@ -315,7 +319,7 @@ impl Motion {
 
 /// The edge ahead of every link whose teeth follow an angle, at the start.
 pub(super) fn teeth_of(train: &Train) -> Vec<(usize, i64)> {
-    let edge = |(l, link): (usize, &super::Link)| match &link.variation {
+    let edge = |(l, link): (usize, &Link)| match &link.variation {
         Some(Variation::Teeth(teeth)) => Some((l, teeth.next_edge(train.coordinates[teeth.coordinate].angle))),
         _ => None,
     };

@@ -218,3 +218,51 @@ fn runs_at_random_are_those_of_an_integration_from_contact_to_contact() {
         assert!(off < 1e-9 && apart < 1e-6, "{seed}: {off:e}, {apart:e} of the peak: {:#?}", Machine::random(seed));
     }
 }
+
+/// Teeth whose stiffness and error jump as the ticks end: what was pressed may be apart at once, or close in with its
+/// damper beyond its flank.
+#[test]
+fn a_jump_of_stiffness_and_error_neither_pulls_nor_pushes() {
+    let dt = 1e-4;
+    for seed in 1..=200_u64 {
+        let mut dice = Noise::new(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
+        let mut between = move |low: f64, high: f64| low * (high / low).powf(0.5 + 0.5 * dice.uniform());
+        let (double, load, rope) = (between(1e5, 1e7), between(20.0, 500.0), seed % 3 == 0);
+        let [single, leaving] = [between(0.5, 0.95), between(0.3, 0.7)].map(|share| share * double);
+        let (give, natural) = (load / double, double.sqrt());
+        let [one, next] = [1.0, if seed % 2 == 0 { 1.0 } else { -1.0 }].map(|sign| sign * give * between(0.05, 2.0));
+        let (damping, gap) = (natural * between(0.02, 1.5), give * between(0.1, 4.0));
+        // a pitch is an even number of ticks, half of it with two pairs
+        let half = (TAU / natural * between(0.1, 2.0) / dt).ceil().max(1.0) as u64;
+        let mesh = Variation::pairs(1.5, 0.5 / (half as f64 * dt), [double, leaving], single, [one, next]);
+        let link = Link::ground(0, double).damping(damping).gap(gap).varying(mesh);
+        let mass = Coordinate::new(1.0).source(Source::Constant(load)).speed(between(0.01, 1.0) * give * natural);
+        let link = if rope { link.rope() } else { link };
+        let mut motion = Train::new().coordinate(mass).link(link).build().unwrap();
+        motion.watch(Signal::Force(0));
+        let entering = double - leaving;
+        let zones = [
+            (double, (entering * one + leaving * next) / double),
+            (single, one),
+            (double, (entering * next + leaving * one) / double),
+            (single, next),
+        ];
+        let (mut peak, mut off) = (0.0_f64, 0.0_f64);
+        for tick in 0..1500_u64 {
+            let (x, v, force) = (motion.elongation(0), motion.speed(0), motion.force(0));
+            let law = |(stiffness, error): (f64, f64)| {
+                let error = [error, 0.0, 0.0];
+                Contact { from: 0, to: None, stiffness, damping, gap, rope, error, swing: 0.0 }.force(0.0, x, v)
+            };
+            // the corner itself is of the zone that it begins, but for the rounding of the clock
+            let zone = (tick / half) as usize;
+            let sides = [zone + 3, zone].map(|zone| (force - law(zones[zone % 4])).abs());
+            off = off.max(if tick % half == 0 && tick > 0 { sides[0].min(sides[1]) } else { sides[1] });
+            peak = peak.max(force.abs());
+            motion.advance(dt);
+        }
+        let least = motion.extremes(Signal::Force(0)).map_or(0.0, |extremes| -extremes.least.min(0.0));
+        let off = if rope { off.max(least) } else { off };
+        assert!(off < 1e-9 * peak, "{seed}: off the law by {off:e} of {peak:e}");
+    }
+}

@@ -566,6 +566,9 @@ impl Hybrid for Double {
             } else if self.side[l] != 0.0 {
                 let left = if link.damping > 0.0 { side * TRAILING } else { 0.0 };
                 all.push((side * strain, pull, Change::Side(l, left)));
+                if left != 0.0 && link.jumps() {
+                    all.push((side * x - reach, size, Change::Side(l, 0.0)));
+                }
             } else {
                 all.push((reach - x, size, Change::Side(l, 1.0)));
                 if !link.rope {
