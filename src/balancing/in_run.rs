@@ -25,7 +25,7 @@ const PATIENCE: u32 = 8;
 const WALK: f64 = 0.1;
 /// Share of the bound that a probe may use.
 const ALLOWED: f64 = 0.93;
-/// Deviation from the speed of the first reading beyond which a reading is not used that is not as predicted:
+/// Change of the speed from reading to reading beyond which a reading is not used that is not as predicted:
 /// acceleration by unbalance goes with the fourth power of the speed, a fifth here.
 const SPEED_BAND: f64 = 0.05;
 /// A vibration below this share of the initial one is better beyond doubt.
@@ -92,7 +92,7 @@ pub struct InRun<T: Scalar, const ROWS: usize, const PLANES: usize> {
     /// Level of the very first reading, and whether it was resumed since.
     first: T,
     resumed: bool,
-    /// Speed of the first reading.
+    /// Speed of the reading before.
     speed: Option<T>,
     /// The farthest that the heads have been from where they began, and were read.
     reach: T,
@@ -211,11 +211,15 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
         self.next(reading, variance)
     }
 
-    /// The same with the speed of the reading, in any unit. More than 5 % off the speed of the first reading, one that
+    /// The same with the speed of the reading, in any unit. More than 5 % off the speed of the reading before, one that
     /// is not as predicted teaches nothing; above the bound the head goes home. One that is as predicted is used at any
-    /// speed, since the speed explains nothing of it.
+    /// speed, since the speed explains nothing of it. A speed that stays is the machine's new one, and so is what
+    /// changes after it.
     pub fn advise_at(&mut self, reading: &[Complex<T>], variance: T, speed: T) -> Action<T, PLANES> {
         let off = (speed / self.speed.unwrap_or(speed) - T::one()).abs();
+        if speed.is_finite() {
+            self.speed = Some(speed);
+        }
         // written so that a NaN is beyond the band
         if !(off <= real(SPEED_BAND)) && !self.foresees(reading, variance) {
             if let Some(reason) = self.aborted {
@@ -229,7 +233,6 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
             let high = self.start.is_some_and(|start| !(largest(reading, self.rows) <= start * self.config.bound));
             return self.go(if high { self.home() } else { self.weights });
         }
-        self.speed.get_or_insert(speed);
         self.next(reading, variance)
     }
 

@@ -176,13 +176,15 @@ fn balanced(seed: u64, disturbance: Disturbance, with_speed: bool) -> Option<Out
 }
 
 /// What a start may meet, and it all together.
-const KINDS: [(&str, Disturbance); 8] = {
+const KINDS: [(&str, Disturbance); 10] = {
     const NONE: Disturbance = Disturbance { hum: 0.0, drift: 0.0, swing: 0.0, jump: false };
     [
         ("nothing", NONE),
         ("speed by 0.3 %", Disturbance { swing: 0.003, ..NONE }),
         ("speed by 1 %", Disturbance { swing: 0.01, ..NONE }),
         ("speed by 2 %", Disturbance { swing: 0.02, ..NONE }),
+        ("speed by 5 %", Disturbance { swing: 0.05, ..NONE }),
+        ("speed by 5 %, jump", Disturbance { swing: 0.05, jump: true, ..NONE }),
         ("bearings", Disturbance { drift: 0.02, ..NONE }),
         ("jump", Disturbance { jump: true, ..NONE }),
         ("hum", Disturbance { hum: 0.1, ..NONE }),
