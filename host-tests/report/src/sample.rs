@@ -65,3 +65,19 @@ pub fn samples_table(samples: &[Sample]) -> (String, Table) {
     });
     (text, table)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Sample, Sampled, samples_table};
+
+    /// Drawn out of the tolerances would be machines that are beyond them.
+    #[test]
+    fn machines_are_drawn_from_within_their_tolerances() {
+        let error = Sampled { nominal: 0.01, median: 0.02, p90: 0.03 };
+        let [shaft_torque, load_speed, load_torque] = [error; 3];
+        let [variant, run] = ["hoist/f32/reduced/10000", "start"].map(String::from);
+        let sample = Sample { variant, run, draws: 10, seed: 1, unstable: 0, shaft_torque, load_speed, load_torque };
+        let (text, _) = samples_table(&[sample]);
+        assert!(text.contains("drawn from within the tolerances") && !text.contains("out of"), "{text}");
+    }
+}

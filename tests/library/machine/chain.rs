@@ -318,6 +318,17 @@ fn errors_name_the_parameter() {
     assert_eq!(shaft.rotor(Inertia(1.0)).backlash(Gap(0.1)).try_reduce(two), Err(Error::BacklashAlone));
     assert_eq!(motor.try_reduce(two), Err(Error::Rigid));
     assert_eq!(shaft.rotor(Inertia(1.0)).try_reduce(Match::TextbookCut(1)), Err(Error::CutOutOfRange));
+    // infinite as it is given, behind a gear, or as a sum
+    let (heavy, one) = (Inertia(f64::MAX), Efficiency(1.0));
+    assert_eq!(
+        Chain::motor(Inertia(f64::INFINITY)).shaft(Stiffness(1.0), Damping(0.0)).rotor(heavy).try_reduce(two),
+        Err(Error::MotorInertia)
+    );
+    assert_eq!(shaft.rotor(Inertia(f64::INFINITY)).try_reduce(two), Err(Error::RotorInertia));
+    assert_eq!(shaft.gear(Ratio(0.5), one).rotor(heavy).try_reduce(two), Err(Error::RotorInertia));
+    let both = shaft.rotor(heavy).rotor(heavy);
+    assert_eq!(both.try_reduce(two), Err(Error::LoadInertia));
+    assert!(both.shaft(Stiffness(1.0), Damping(0.0)).rotor(Inertia(1.0)).try_reduce(two).is_err());
     let mut full = motor;
     for _ in 1..driveline::machine::CAPACITY {
         full = full.shaft(Stiffness(1.0), Damping(0.0)).rotor(Inertia(1.0));
