@@ -13,7 +13,7 @@
 use core::f64::consts::TAU;
 
 use super::extremes::Fluctuations;
-use super::series::{Circle, FourierSeries, Order, circle};
+use super::series::{Circle, MAX_ORDER, Order, FourierSeries, circle};
 use super::{Bin, CycleConfig, Ripple, Summed, WaveformConfig, Window};
 use crate::number::Real;
 
@@ -96,11 +96,9 @@ impl<R: Real> Ripple<R> {
         let turning = self.speed.mean * per_angle;
         let shaft_torque = self.reaction(&self.speed, torque, motor, per_angle, &circle);
         let mut twist = FourierSeries::constant(shaft_torque.mean / stiffness);
-        let mut load_speed = self.speed;
+
         let (fitted, mut magnified) = (R::count(self.speed.highest() as u32), R::ZERO);
-        for (((n, torque), twist), speed) in
-            (1_u32..).zip(&shaft_torque.orders).zip(&mut twist.orders).zip(&mut load_speed.orders)
-        {
+        for ((n, torque), twist) in (1_u32..).zip(&shaft_torque.orders).zip(&mut twist.orders) {
             let n = R::count(n);
             let (k, d) = (stiffness, damping * turning * n);
             let size = k * k + d * d;
@@ -110,10 +108,13 @@ impl<R: Real> Ripple<R> {
             magnified = if fitted >= n { square.max(magnified) } else { magnified };
             *twist =
                 Order { cos: (k * torque.cos - d * torque.sin) / size, sin: (k * torque.sin + d * torque.cos) / size };
-            let rate = twist.derivative(n);
-            speed.cos -= turning * rate.cos;
-            speed.sin -= turning * rate.sin;
         }
+        let slope = twist.derivative();
+        let values = circle.map(|(cos, sin)| {
+            let speed = self.speed.along(cos, sin);
+            speed - speed * slope.along(cos, sin) * per_angle
+        });
+        let load_speed = FourierSeries::of(&values, &circle, shaft_torque.highest());
         let load_torque = self.reaction(&load_speed, &shaft_torque, load, per_angle, &circle);
         let (mut least, mut most) = (R::INFINITY, -R::INFINITY);
         for &(cos, sin) in &circle {
@@ -133,7 +134,7 @@ impl<R: Real> Ripple<R> {
     }
 
     /// Torque beyond an inertia accelerated as in `speed`: `torque - J d omega/dt`, d/dt being omega d/dphi and the
-    /// trend.
+    /// trend. That product of two series of n orders has 2 n.
     #[inline(never)]
     fn reaction(
         &self,
@@ -148,6 +149,6 @@ impl<R: Real> Ripple<R> {
             let acceleration = speed.along(cos, sin) * slope.along(cos, sin) * per_angle + self.acceleration;
             torque.along(cos, sin) - inertia * acceleration
         });
-        FourierSeries::of(&values, circle, speed.highest())
+        FourierSeries::of(&values, circle, (2 * speed.highest()).min(MAX_ORDER))
     }
 }

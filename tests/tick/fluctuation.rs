@@ -325,22 +325,21 @@ fn the_load_side_in_closed_form() {
         FourierSeries::from_samples(&table)
     };
     let shaft_orders = orders(&shaft);
-    // twist = torque over (k + j d n w/2), the load's speed less its rate
+    // twist = torque over (k + j d n w/2), the load's speed less its rate, which is omega/2 times its derivative
     let parts: Vec<[f64; 5]> = (1..=12)
         .map(|n| {
             let (order, n) = (shaft_orders.order(n), n as f64);
             let d = machine.damping * n * 0.5 * mean;
             let size = machine.stiffness * machine.stiffness + d * d;
             let twist = times([order.cos, -order.sin], [machine.stiffness / size, -d / size]);
-            // j n w/2 times the twist
-            let rate = [-n * 0.5 * mean * twist[1], n * 0.5 * mean * twist[0]];
-            [n, twist[0], -twist[1], rate[0], -rate[1]]
+            // j n times the twist
+            [n, twist[0], -twist[1], -n * twist[1], -n * twist[0]]
         })
         .collect();
     let sum = |theta: f64, k: usize| {
         parts.iter().map(|p| p[k] * (p[0] * theta).cos() + p[k + 1] * (p[0] * theta).sin()).sum::<f64>()
     };
-    let load = |theta: f64| at(theta) - sum(theta, 3);
+    let load = |theta: f64| at(theta) * (1.0 - 0.5 * sum(theta, 3));
     let twist = |theta: f64| shaft_orders.mean / machine.stiffness + sum(theta, 1);
     let load_torque = |theta: f64| {
         let rate = (load(theta + 1e-5) - load(theta - 1e-5)) / 2e-5;

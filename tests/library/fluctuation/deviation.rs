@@ -8,7 +8,8 @@ use core::f64::consts::TAU;
 use driveline::design::{Disturbance, Encoder, Rate, TwoMassDesign};
 use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::fluctuation::{
-    CycleConfig, Extremes, Fluctuation, Fluctuations, SpeedErrors, ToothErrors, ToothWindow, Waveform, WaveformConfig,
+    CycleConfig, Drivetrain, Extremes, Fluctuation, Fluctuations, SpeedErrors, ToothErrors, ToothWindow, Waveform,
+    WaveformConfig,
 };
 use driveline::machine::{Damping, Inertia, Rigid, Stiffness, TwoMass};
 use driveline::number::Part;
@@ -324,6 +325,74 @@ fn by_extremes_of_an_observer_of_any_speed() {
         judged[0].holds(&format!("motor, {orders} orders"), least);
         judged[1].holds(&format!("load, {orders} orders"), 0.0);
     }
+}
+
+/// Delta of the load by the window's law, as it is read and as it is, where motor and torque have the orders that are
+/// read: their products have twice as many. The shaft's twist is integrated by Runge and Kutta's fourth order.
+fn behind_a_shaft(noise: &mut Noise) -> Option<(Fluctuations, f64)> {
+    const PERIOD: f64 = 1e-4;
+    let motor = between(0.05, 5.0, noise);
+    let load = motor * between(0.2, 8.0, noise);
+    let mean = between(10.0, 150.0, noise);
+    // the orders lie on both sides of it
+    let resonance = mean * between(0.6, 40.0, noise);
+    let stiffness = resonance * resonance / (1.0 / motor + 1.0 / load);
+    let damping = 2.0 * between(0.005, 0.08, noise) * stiffness / resonance;
+    let wave = Wave::random(between(0.002, 0.1, noise), noise);
+    let (driven, level) = (Wave::random(between(0.002, 0.3, noise), noise), motor * mean * mean);
+    let force = |angle: f64| {
+        let slope = (wave.at(angle + 1e-5) - wave.at(angle - 1e-5)) / 2e-5;
+        level * (0.1 * driven.at(angle) - wave.at(angle) * slope)
+    };
+    let rates = |[angle, twist]: [f64; 2]| [mean * wave.at(angle), (force(angle) - stiffness * twist) / damping];
+    let turn = TAU / mean * wave.grid().map(|speed| 1.0 / speed).sum::<f64>() / 4000.0;
+    let steps = (2.0 * turn * stiffness / damping).max(4000.0);
+    if steps > 1e5 {
+        return None;
+    }
+    let (h, mut state) = (turn / steps, [0.0, force(0.0) / stiffness]);
+    let (mut least, mut most) = (f64::MAX, f64::MIN);
+    for step in 0..2 * steps as u32 {
+        let plus = |rate: [f64; 2], h: f64| [0, 1].map(|k| state[k] + h * rate[k]);
+        let a = rates(state);
+        let b = rates(plus(a, 0.5 * h));
+        let c = rates(plus(b, 0.5 * h));
+        let d = rates(plus(c, h));
+        state = plus([0, 1].map(|k| (a[k] + 2.0 * (b[k] + c[k]) + d[k]) / 6.0), h);
+        if f64::from(step) > steps {
+            let [speed, rate] = rates(state);
+            (least, most) = (least.min(speed - rate), most.max(speed - rate));
+        }
+    }
+    let cycle = CycleConfig::new(Cycle::TURN, PERIOD, Bases::SI);
+    let config = WaveformConfig::new::<64>(cycle, between(1.0, 40.0, noise) as u32);
+    let counts = (4.0 * between(512.0, 1e5, noise)).round();
+    let (mut waveform, mut angle) = (Waveform::<64, f32>::default(), TAU * noise.even());
+    loop {
+        let before = angle;
+        for _ in 0..4 {
+            angle += 0.25 * PERIOD * mean * wave.at(angle + 0.125 * PERIOD * mean * wave.at(angle));
+        }
+        let turned = ((angle / TAU * counts).floor() / counts).fract() * 4_294_967_296.0;
+        let torque = 0.1 * level * driven.at(0.5 * (before + angle));
+        waveform.measure(&config, turned as u32, torque as f32, &Estimate { motor_speed: 1.0, ..Estimate::default() });
+        if let Some(window) = waveform.take() {
+            let machine = Drivetrain { motor_inertia: motor, load_inertia: load, stiffness, damping };
+            let side = window.ripple(&config, 4).ok()?.load_side(&cycle, &machine, &window.motor_torque(&config, 4));
+            return Some((side.load.in_double(), (most - least) * turn / TAU));
+        }
+    }
+}
+
+#[test]
+fn by_the_law_of_the_load_side() {
+    let (mut noise, mut judged) = (Noise::new(75), Judged::default());
+    while judged.runs < 200 {
+        if let Some((found, truth)) = behind_a_shaft(&mut noise) {
+            judged.add(found, truth);
+        }
+    }
+    judged.holds("load side", 0.4);
 }
 
 /// Error of the two speeds over what an observer shows of them, while the motor swings by a tenth of a radian at a
