@@ -83,7 +83,7 @@ sentences! {
         bandwidth (SpeedLoopTuning::with_bandwidth), a lag of the speed (SpeedLoopDesign::with_speed_lag and the \
         governor SpeedLag), or name a narrower TOLERANCE",
     LoopUndescribed => "the speed loop with its observer is unstable, or lacks the gain margin of ROBUSTNESS, with a \
-        resonance that the description leaves out (TOLERANCE: undescribed): take less active damping \
+        resonance that the description leaves out (undescribed of TOLERANCE): take less active damping \
         (SpeedLoopTuning::of), a lag of the speed (SpeedLoopDesign::with_speed_lag and the governor SpeedLag) or less \
         bandwidth, or describe the machine up to a higher frequency and name it in TOLERANCE",
     LoopTorque => "the speed loop with its observer is unstable at the tolerance of the torque: take less bandwidth \

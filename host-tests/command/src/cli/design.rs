@@ -19,7 +19,7 @@ use super::emit::tolerance;
 use super::{Plan, rust};
 use crate::machine_file::MachineFile;
 use crate::machine_file::class::Class;
-use crate::machine_file::designs::Designs;
+use crate::machine_file::designs::{Designs, Widest};
 use driveline::design::{Actuator, Spread, Tolerance};
 use driveline_report::Table;
 use driveline_report::format::{counted, percent, rate, significant};
@@ -31,6 +31,8 @@ struct Whole<'p> {
     plan: &'p Plan,
     /// `null` where the machine has no shaft.
     responses: Option<Responses>,
+    /// How wide the speed loop may be; `null` where it lacks margins as it is.
+    widest: Option<Widest>,
     /// Rates and observers side by side, where they are asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     rates: Option<Vec<rates::Choice>>,
@@ -58,7 +60,9 @@ impl Answered {
         let page = page(&plan, responses.as_ref());
         let is_stable = plan.speed_loop.as_ref().is_none_or(|governor| governor.no_margins.is_none());
         let rust = is_stable.then(|| emitted(machine, &plan)).transpose()?;
-        let json = with_json.then(|| serde_json::to_string(&Whole { plan: &plan, responses, rates: None })).transpose();
+        let json = with_json
+            .then(|| serde_json::to_string(&Whole { plan: &plan, responses, widest: None, rates: None }))
+            .transpose();
         Ok(Self { json: json.map_err(|error| error.to_string())?, page, rust })
     }
 }
@@ -68,6 +72,12 @@ fn responses(machine: &MachineFile) -> Result<Option<Responses>, String> {
     let damped = machine.with_dampers()?;
     let of = |two| Responses::of(&damped, &Designs::of(&damped, &two)?);
     damped.two_masses().map(of).transpose().map_err(|error| error.to_string())
+}
+
+/// How wide the speed loop of a plan may be.
+fn widest(machine: &MachineFile, plan: &Plan) -> Option<Widest> {
+    let damped = machine.with_dampers().ok()?;
+    damped.widest(&damped.two_masses()?, plan.speed_loop.as_ref()?.observer == "rigid")
 }
 
 /// The constants, and which parts of the design are none of them.
@@ -166,12 +176,13 @@ fn text(machine: &MachineFile, plan: &Plan) -> String {
     if let Some(governor) = &plan.speed_loop {
         text.push_str(&format!(
             "\nspeed loop with the observer of {}: proportional {} N m s/rad, integral {} N m/rad, \
-             damping {} N m s/rad; {} Hz wide\n{}{}",
+             damping {} N m s/rad; {} Hz wide{}\n{}{}",
             if governor.observer == "rigid" { "one mass" } else { "two masses" },
             significant(governor.proportional),
             significant(governor.integral),
             significant(governor.damping),
             significant(governor.bandwidth / TAU),
+            wide(machine, plan),
             governor.margins.as_ref().map_or_else(|| none("margins", governor.no_margins.as_ref()), margins),
             within_tolerances(machine, governor),
         ));
@@ -180,6 +191,14 @@ fn text(machine: &MachineFile, plan: &Plan) -> String {
         text.push_str(&over_tolerances(machine, predicted));
     }
     text.trim_end().to_owned()
+}
+
+/// The width of the loop in the industry's unit, and what limits it.
+fn wide(machine: &MachineFile, plan: &Plan) -> String {
+    widest(machine, plan).map_or_else(String::new, |Widest { share, cause }| {
+        let beyond = cause.map_or_else(String::new, |cause| format!("; beyond, {cause}"));
+        format!(", {} of the antiresonance, may be {share:.2} of it{beyond}", significant(machine.bandwidth))
+    })
 }
 
 /// The errors that are predicted over the tolerances, and the observer that is selected by them.

@@ -13,6 +13,7 @@ use driveline::machine::{Losses, Match, Speed, Torque, TwoMass};
 use driveline::number::Fixed;
 use driveline::observer::{GearedConfig, LoadGearConfig};
 use driveline::settings::{self, Bases, Gear, LoadGear};
+use serde::Serialize;
 
 use super::factor::Factor;
 use super::{Duty, MachineFile};
@@ -53,6 +54,19 @@ pub struct Designs {
     /// Whether the errors of one mass would do, but its loop lacks margins that two masses have.
     pub is_rigid_refused: bool,
 }
+
+/// How wide a speed loop may be.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Widest {
+    /// Its natural frequency over the antiresonance, within a hundredth.
+    pub share: f64,
+    /// What a wider one lacks; `null` up to 0.99, beyond which no loop is designed.
+    pub cause: Option<&'static str>,
+}
+
+/// The widest loop that is tried, over the antiresonance, and the step.
+const WHOLE: f64 = 0.99;
+const STEP: f64 = 0.01;
 
 /// What a speed loop lacks, and a remedy in the words of a machine file.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -142,7 +156,7 @@ impl Lack {
             Error::LoopLate => "the speed loop with its observer is unstable with a torque as late as it may be",
             other => other.message(),
         };
-        let cause = sentence.split_once(':').map_or(sentence, |(cause, _)| cause);
+        let cause = sentence.split_once(": ").map_or(sentence, |(cause, _)| cause);
         Self { cause, remedy: None, is_of_two: false, is_tried: false }
     }
 
@@ -407,6 +421,30 @@ impl MachineFile {
             ("rigid", one().map_err(said)),
             (step, both.and_then(|design| predicted(LoopObserver::TwoMass(&design))).map_err(said)),
         ]
+    }
+
+    /// The widest speed loop with all margins over the tolerances; `None` where that of the file lacks some.
+    pub fn widest(&self, two: &TwoMass, is_rigid: bool) -> Option<Widest> {
+        let mut changed = self.clone();
+        let mut lack = |bandwidth: f64| {
+            changed.bandwidth = bandwidth;
+            match changed.lack_with(two, is_rigid) {
+                Ok(lack) => lack.map(|lack| lack.cause),
+                Err(error) => Some(error.message()),
+            }
+        };
+        let mut widest = Widest { share: self.bandwidth, cause: None };
+        if lack(widest.share).is_some() {
+            return None;
+        }
+        while widest.cause.is_none() && widest.share < WHOLE {
+            let next = (widest.share + STEP).min(WHOLE);
+            widest.cause = lack(next);
+            if widest.cause.is_none() {
+                widest.share = next;
+            }
+        }
+        Some(widest)
     }
 
     /// What the loop of a machine lacks with one of its observers.

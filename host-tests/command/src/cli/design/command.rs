@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{Whole, emitted, page, rates, responses, text};
+use super::{Whole, emitted, page, rates, responses, text, widest};
 use crate::cli::results::{Destination, check};
 use crate::cli::{Failure, Plan, say, say_json};
 use crate::machine_file::read;
@@ -69,7 +69,7 @@ impl Design {
             (Some(Language::Rust), false) => say(emitted(&machine, &plan).map_err(refused)?.trim_end()),
             (None, true) => {
                 let rates = self.rates.then(|| rates::choices(&machine));
-                say_json(&Whole { plan: &plan, responses: drawn()?, rates })?;
+                say_json(&Whole { plan: &plan, responses: drawn()?, widest: widest(&machine, &plan), rates })?;
             }
             (None, false) if self.rates => say(rates::text(&machine)),
             (None, false) => say(text(&machine, &plan)),
