@@ -70,7 +70,7 @@ pub use governor::{Actuator, GovernorDesign, LoadFeedForward, VirtualInertia};
 pub use input_shaper::InputShaperDesign;
 pub use kalman::Kalman;
 pub use late_loop::Averaging;
-pub use margins::Margins;
+pub use margins::{CutLoop, Margins};
 pub use matrix::Matrix;
 pub use mechanism::MechanismDesign;
 pub use natural_damping::NaturalDamping;

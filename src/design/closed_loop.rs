@@ -1,7 +1,7 @@
 //! The speed loop with everything that is in it: machine, observer, governor, actuator, all sampled.
 
 use super::controller::Observer;
-use super::margins::{Margins, OpenLoop};
+use super::margins::{CutLoop, Margins, OpenLoop};
 use super::plant::Plant;
 use super::polynomial::Polynomial;
 use super::{Actuator, Error, PlacedObserver, RigidDesign, Robustness, SpeedLoopDesign, TwoMassDesign};
@@ -107,12 +107,11 @@ impl ClosedLoop {
         (controller, self.numerator.times(numerator), self.denominator.times(denominator))
     }
 
-    /// Response of the loop round a machine at a frequency (rad/s), as real and imaginary part: the torque that the
-    /// drive gives against one that is added where the loop is cut. Its margins are [`margins`](Self::margins).
+    /// The loop round a machine, cut at the torque on it.
     #[must_use]
-    pub const fn response(&self, plant: &Plant, frequency: f64) -> (f64, f64) {
+    pub const fn cut(&self, plant: &Plant) -> CutLoop {
         let (numerator, denominator) = self.open(plant);
-        OpenLoop::Ratio(numerator, denominator, self.period).response(frequency)
+        CutLoop { numerator, denominator, period: self.period }
     }
 
     /// Whether the loop round a machine is stable with its torque times `gain`.
@@ -156,26 +155,31 @@ impl ClosedLoop {
     /// # Errors
     /// [`Error::LoopUnstable`] where there are none.
     pub const fn margins(&self, plant: &Plant) -> Result<Margins, Error> {
-        self.margins_at(plant, 1.0)
+        self.margins_at(plant, [1.0])
     }
 
-    /// Margins with the torque times a factor.
-    pub(super) const fn margins_at(&self, plant: &Plant, torque: f64) -> Result<Margins, Error> {
+    /// The least margins with the torque times each of the factors.
+    pub(super) const fn margins_at<const N: usize>(&self, plant: &Plant, torques: [f64; N]) -> Result<Margins, Error> {
         let (numerator, denominator) = self.open(plant);
-        let numerator = numerator.scaled(torque);
-        if !denominator.plus(1.0, &numerator).is_stable() {
-            return Err(Error::LoopUnstable);
-        }
-        let open = OpenLoop::Ratio(numerator, denominator, self.period);
+        each!(k, 0..N, {
+            if !denominator.plus(torques[k], &numerator).is_stable() {
+                return Err(Error::LoopUnstable);
+            }
+        });
+        let open = OpenLoop::Ratio(CutLoop { numerator, denominator, period: self.period });
         let nyquist = core::f64::consts::PI / self.period;
         let mut found = Margins::NONE;
-        open.sweep(&mut found, 1e-2 * self.slowest, nyquist, 1000);
+        open.sweep(&mut found, torques, 1e-2 * self.slowest, nyquist, 1000);
         each!(k, 0..plant.count, {
-            open.sweep_about(&mut found, sqrt(plant.vibration[k].square), nyquist, 200);
+            open.sweep_about(&mut found, torques, sqrt(plant.vibration[k].square), nyquist, 200);
         });
         // By the poles: a frequency response may miss a resonance that is sharp enough.
-        found.gain_up = edge(&Varied::Gain(&numerator, &denominator), true);
-        found.gain_down = edge(&Varied::Gain(&numerator, &denominator), false);
+        (found.gain_up, found.gain_down) = (f64::INFINITY, 0.0);
+        each!(k, 0..N, {
+            let numerator = numerator.scaled(torques[k]);
+            found.gain_up = found.gain_up.min(edge(&Varied::Gain(&numerator, &denominator), true));
+            found.gain_down = found.gain_down.max(edge(&Varied::Gain(&numerator, &denominator), false));
+        });
         Ok(found)
     }
 

@@ -1,6 +1,6 @@
 //! Stability margins of a sampled loop, from its frequency response.
 
-use super::complex::{Complex, over};
+use super::complex::{Complex, over, scaled};
 use super::late_loop::LateLoop;
 use super::polynomial::Polynomial;
 use crate::math::{atan2, exp, hypot, ln, sin_cos};
@@ -66,8 +66,29 @@ impl Margins {
 pub(super) enum OpenLoop {
     /// In closed form, with dead time.
     Late(LateLoop),
-    /// A ratio of polynomials in delta, and the period.
-    Ratio(Polynomial, Polynomial, f64),
+    /// Sampled.
+    Ratio(CutLoop),
+}
+
+/// A loop round one machine, cut at the torque on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct CutLoop {
+    pub(super) numerator: Polynomial,
+    pub(super) denominator: Polynomial,
+    pub(super) period: f64,
+}
+
+impl CutLoop {
+    /// Response at a frequency (rad/s), as real and imaginary part: the torque that the drive gives against one that is
+    /// added where the loop is cut. Its margins are [`ClosedLoop::margins`](super::ClosedLoop::margins).
+    #[must_use]
+    pub const fn response(&self, frequency: f64) -> (f64, f64) {
+        // z - 1 without cancellation
+        let (half, cosine) = sin_cos(0.5 * frequency * self.period);
+        let delta = (-2.0 * half * half, 2.0 * half * cosine);
+        over(self.numerator.at(delta), self.denominator.at(delta))
+    }
 }
 
 impl OpenLoop {
@@ -75,55 +96,28 @@ impl OpenLoop {
     pub(super) const fn response(&self, frequency: f64) -> Complex {
         match self {
             Self::Late(open) => open.response(frequency),
-            Self::Ratio(numerator, denominator, period) => {
-                let (half, _) = sin_cos(0.5 * frequency * *period);
-                // z - 1 without cancellation.
-                let delta = (-2.0 * half * half, sin_cos(frequency * *period).0);
-                over(numerator.at(delta), denominator.at(delta))
-            }
+            Self::Ratio(open) => open.response(frequency),
         }
     }
 
-    /// Lowers the margins found to what a range of frequencies (rad/s) shows.
-    pub(super) const fn sweep(&self, found: &mut Margins, from: f64, to: f64, points: u32) {
+    /// Lowers the margins found to what a range of frequencies (rad/s) shows, with the loop times each of the gains.
+    pub(super) const fn sweep<const N: usize>(
+        &self,
+        found: &mut Margins,
+        gains: [f64; N],
+        from: f64,
+        to: f64,
+        points: u32,
+    ) {
         let factor = exp(ln(to / from) / points as f64);
         let mut low = from;
         let mut before = self.response(low);
         each!(point, 0..points, {
             let high = if point + 1 == points { to } else { low * factor };
             let after = self.response(high);
-            let distance = hypot(1.0 + after.0, after.1);
-            if distance < found.modulus {
-                found.modulus = distance;
-            }
-            if (before.1 < 0.0) != (after.1 < 0.0) {
-                let crossing = self.response(self.bisect(low, high, true));
-                let size = -crossing.0;
-                // A sign change through a pole or through the positive axis is no crossing of -180 degrees.
-                if size > 0.0 && crossing.1.abs() < 1e-3 * size {
-                    if size < 1.0 && 1.0 / size < found.gain_up {
-                        found.gain_up = 1.0 / size;
-                    }
-                    if size > 1.0 && 1.0 / size > found.gain_down {
-                        found.gain_down = 1.0 / size;
-                    }
-                }
-            }
-            if (hypot(before.0, before.1) < 1.0) != (hypot(after.0, after.1) < 1.0) {
-                let frequency = self.bisect(low, high, false);
-                let crossing = self.response(frequency);
-                let phase = atan2(-crossing.1, -crossing.0).abs();
-                let lag = atan2(crossing.1, crossing.0) + core::f64::consts::PI;
-                if lag / frequency < found.delay {
-                    found.delay = lag / frequency;
-                }
-                if phase < found.phase {
-                    found.phase = phase;
-                }
-                if frequency > found.crossover {
-                    found.crossover = frequency;
-                }
-            }
+            each!(k, 0..N, {
+                self.look(found, gains[k], [low, high], [scaled(gains[k], before), scaled(gains[k], after)]);
+            });
             low = high;
             before = after;
         });
@@ -131,24 +125,68 @@ impl OpenLoop {
 
     /// The same about a resonance (rad/s), the finer, the closer to it: a lightly damped shaft turns the
     /// response quickly.
-    pub(super) const fn sweep_about(&self, found: &mut Margins, resonance: f64, nyquist: f64, points: u32) {
+    pub(super) const fn sweep_about<const N: usize>(
+        &self,
+        found: &mut Margins,
+        gains: [f64; N],
+        resonance: f64,
+        nyquist: f64,
+        points: u32,
+    ) {
         let mut width = 0.1;
         while width > 1e-7 {
             let (from, to) = ((1.0 - width) * resonance, (1.0 + width) * resonance);
             if to < nyquist {
-                self.sweep(found, from, to, points);
+                self.sweep(found, gains, from, to, points);
             }
             width *= 0.1;
         }
     }
 
+    /// Lowers the margins found to what a step of the frequency shows.
+    const fn look(&self, found: &mut Margins, gain: f64, [low, high]: [f64; 2], [before, after]: [Complex; 2]) {
+        // a root only where it may be the least
+        let square = (1.0 + after.0) * (1.0 + after.0) + after.1 * after.1;
+        if square < found.modulus * found.modulus * (1.0 + 1e-9) {
+            found.modulus = hypot(1.0 + after.0, after.1).min(found.modulus);
+        }
+        if (before.1 < 0.0) != (after.1 < 0.0) {
+            let crossing = scaled(gain, self.response(self.bisect(low, high, gain, true)));
+            let size = -crossing.0;
+            // A sign change through a pole or through the positive axis is no crossing of -180 degrees.
+            if size > 0.0 && crossing.1.abs() < 1e-3 * size {
+                if size < 1.0 && 1.0 / size < found.gain_up {
+                    found.gain_up = 1.0 / size;
+                }
+                if size > 1.0 && 1.0 / size > found.gain_down {
+                    found.gain_down = 1.0 / size;
+                }
+            }
+        }
+        if is_small(before) != is_small(after) {
+            let frequency = self.bisect(low, high, gain, false);
+            let crossing = scaled(gain, self.response(frequency));
+            let phase = atan2(-crossing.1, -crossing.0).abs();
+            let lag = atan2(crossing.1, crossing.0) + core::f64::consts::PI;
+            if lag / frequency < found.delay {
+                found.delay = lag / frequency;
+            }
+            if phase < found.phase {
+                found.phase = phase;
+            }
+            if frequency > found.crossover {
+                found.crossover = frequency;
+            }
+        }
+    }
+
     /// Frequency between two at which the imaginary part changes sign, or the gain passes 1.
-    const fn bisect(&self, mut low: f64, mut high: f64, imaginary: bool) -> f64 {
-        let below = self.is_low(low, imaginary);
+    const fn bisect(&self, mut low: f64, mut high: f64, gain: f64, imaginary: bool) -> f64 {
+        let below = self.is_low(low, gain, imaginary);
         // of a step of a few percent, to 1e-9 of it
         each!(halving, 0..28, {
             let middle = 0.5 * (low + high);
-            if self.is_low(middle, imaginary) == below {
+            if self.is_low(middle, gain, imaginary) == below {
                 low = middle;
             } else {
                 high = middle;
@@ -157,8 +195,13 @@ impl OpenLoop {
         0.5 * (low + high)
     }
 
-    const fn is_low(&self, frequency: f64, imaginary: bool) -> bool {
-        let response = self.response(frequency);
-        if imaginary { response.1 < 0.0 } else { hypot(response.0, response.1) < 1.0 }
+    const fn is_low(&self, frequency: f64, gain: f64, imaginary: bool) -> bool {
+        let response = scaled(gain, self.response(frequency));
+        if imaginary { response.1 < 0.0 } else { is_small(response) }
     }
+}
+
+/// Whether a response lies within the unit circle.
+const fn is_small(response: Complex) -> bool {
+    response.0 * response.0 + response.1 * response.1 < 1.0
 }

@@ -195,10 +195,10 @@ impl TwoMass {
         }
         let [prompt, delayed] = get!(observer.close_within(speed_loop, actuator, tolerance));
         let mut least = Margins::NONE;
-        each!(index, 0..4 * tolerance.machines(), {
+        let torques = [tolerance.torque.min, tolerance.torque.max];
+        each!(index, 0..2 * tolerance.machines(), {
             let closed = if index & 1 == 0 { &prompt } else { &delayed };
-            let torque = if index & 2 == 0 { tolerance.torque.min } else { tolerance.torque.max };
-            match closed.margins_at(&Plant::of(&tolerance.machine(self, index / 4)), torque) {
+            match closed.margins_at(&Plant::of(&tolerance.machine(self, index / 2)), torques) {
                 Ok(found) => least = least.and(&found),
                 Err(error) => return Err(error),
             }

@@ -31,6 +31,9 @@ struct Request {
     /// Whether a design is answered as JSON, too.
     #[serde(default)]
     json: bool,
+    /// Whether it is drawn with fewer points.
+    #[serde(default)]
+    quick: bool,
     /// Of a recording: samples a second, torque per current (N m/A), its part (s).
     rate: Option<f64>,
     torque_constant: Option<f64>,
@@ -57,7 +60,7 @@ impl Request {
         match self.what {
             Do::Design => {
                 let machine = parse(&self.name, &self.text).map_err(placed)?;
-                let design::Answered { json, page, rust } = design::Answered::of(&machine, self.json)?;
+                let design::Answered { json, page, rust } = design::Answered::of(&machine, self.json, self.quick)?;
                 Ok(Answer { json, page: Some(page), rust, ..Answer::default() })
             }
             Do::Balancing => {

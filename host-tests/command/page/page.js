@@ -45,20 +45,22 @@ const show = (answer, what, took) => {
   $("result").style.minHeight = "";
 };
 
-let busy = false, again = false;
-const answerText = async () => {
-  if (busy) { again = true; return; }
+// what is to be answered next: with fewer points while a slider moves, and in full once it rests
+let busy = false, next = null, rest = 0;
+const answerText = async (quick = false) => {
+  next = { quick };
+  if (busy) return;
   busy = true;
-  do {
-    again = false;
-    const text = $("text").value, begin = performance.now();
-    const answer = await ask({ do: kind(text), name, text });
+  while (next) {
+    const { quick } = next, text = $("text").value, begin = performance.now();
+    next = null;
+    const answer = await ask({ do: kind(text), name, text, quick });
     if (!answer.error) last = answer;
     show(answer, kind(text), performance.now() - begin);
     document.documentElement.dataset.took = performance.now() - begin;
     // the page is drawn before the next value
-    if (again) await new Promise((done) => setTimeout(done));
-  } while (again);
+    if (next) await new Promise((done) => setTimeout(done));
+  }
   busy = false;
   $("rust").disabled = !last.rust || kind($("text").value) !== "design";
   const to = kind($("text").value) === "design" ? `cargo driveline campaign ${name}` : "";
@@ -91,7 +93,12 @@ const knobs = () => {
       $("text").value = lines.join("\n");
       return shown;
     };
-    slider.addEventListener("input", () => { value.value = put(start * 4 ** slider.value); answerText(); });
+    slider.addEventListener("input", () => {
+      value.value = put(start * 4 ** slider.value);
+      answerText(true);
+      clearTimeout(rest);
+      rest = setTimeout(answerText, 250);
+    });
     value.addEventListener("change", () => { if (value.value !== "") { put(+value.value); answerText(); } });
     row.className = "knob";
     row.append(title, slider, value);
@@ -135,7 +142,7 @@ $("example").append(...Object.keys(examples).map((one) => new Option(one)));
 $("example").addEventListener("change", () => put(`${$("example").value}.toml`, examples[$("example").value]));
 $("open").addEventListener("change", () => { if ($("open").files[0]) take($("open").files[0]); });
 $("text").addEventListener("change", () => { knobs(); answerText(); });
-$("text").addEventListener("input", answerText);
+$("text").addEventListener("input", () => answerText());
 $("file").addEventListener("click", () => save(name, $("text").value));
 $("rust").addEventListener("click", () => save("machine.rs", last.rust));
 addEventListener("dragover", (event) => { event.preventDefault(); $("work").classList.add("over"); });

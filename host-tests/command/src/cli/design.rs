@@ -13,7 +13,7 @@ pub use command::Design;
 use std::f64::consts::TAU;
 
 use self::page::page;
-use self::responses::Responses;
+use self::responses::{Detail, Responses};
 use super::controller::{Causes, LeastMargins, Margins, Predicted, SpeedLoop};
 use super::emit::tolerance;
 use super::{Plan, rust};
@@ -50,13 +50,13 @@ pub struct Answered {
 }
 
 impl Answered {
-    /// Of a machine.
+    /// Of a machine; `quick` with fewer points drawn.
     ///
     /// # Errors
     /// The library's sentence for a machine that cannot be observed or governed.
-    pub fn of(machine: &MachineFile, with_json: bool) -> Result<Self, String> {
+    pub fn of(machine: &MachineFile, with_json: bool, quick: bool) -> Result<Self, String> {
         let plan = Plan::with_dampers(machine)?;
-        let responses = responses(machine)?;
+        let responses = responses(machine, if quick { Detail::QUICK } else { Detail::FULL })?;
         let page = page(&plan, responses.as_ref());
         let is_stable = plan.speed_loop.as_ref().is_none_or(|governor| governor.no_margins.is_none());
         let rust = is_stable.then(|| emitted(machine, &plan)).transpose()?;
@@ -68,9 +68,9 @@ impl Answered {
 }
 
 /// The responses of the loop; none where the machine has no shaft.
-fn responses(machine: &MachineFile) -> Result<Option<Responses>, String> {
+fn responses(machine: &MachineFile, detail: Detail) -> Result<Option<Responses>, String> {
     let damped = machine.with_dampers()?;
-    let of = |two| Responses::of(&damped, &Designs::of(&damped, &two)?);
+    let of = |two| Responses::of(&damped, &Designs::of(&damped, &two)?, detail);
     damped.two_masses().map(of).transpose().map_err(|error| error.to_string())
 }
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{Whole, emitted, page, rates, responses, text, widest};
+use super::{Detail, Whole, emitted, page, rates, responses, text, widest};
 use crate::cli::results::{Destination, check};
 use crate::cli::{Failure, Plan, say, say_json};
 use crate::machine_file::read;
@@ -61,7 +61,7 @@ impl Design {
         if let (Some(_), Some(why)) = (self.emit, unstable) {
             return Err(Failure::failed(format!("{}: no constants are printed: {why}", self.file.display())));
         }
-        let drawn = || responses(&machine).map_err(refused);
+        let drawn = || responses(&machine, Detail::FULL).map_err(refused);
         match (self.emit, self.json) {
             (Some(Language::Rust), true) => {
                 say_json(&serde_json::json!({ "rust": emitted(&machine, &plan).map_err(refused)? }))?;

@@ -131,6 +131,9 @@ impl Observer {
     }
 }
 
+/// States of an observer at most.
+const MOST_STATES: usize = 5;
+
 /// What enters a tick from outside.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Entry {
@@ -213,14 +216,20 @@ impl Linear {
         let speeds = [0, 1].map(|which| moved(which, 1, turning, swinging));
 
         let Observer { transition, input, gains, load_speed, .. } = &self.observer;
-        let predicted = transition * DVector::from_row_slice(observed) + input * *acted;
-        let corrected = &predicted + gains * (angle - predicted[0]);
-        observed.copy_from_slice(corrected.as_slice());
+        let mut corrected = [0.0; MOST_STATES];
+        for (row, next) in corrected.iter_mut().take(gains.len()).enumerate() {
+            *next = observed.iter().enumerate().map(|(at, state)| transition[(row, at)] * state).sum();
+            *next += input[row] * *acted;
+        }
+        let innovation = angle - corrected[0];
+        corrected.iter_mut().zip(gains.iter()).for_each(|(next, gain)| *next += gain * innovation);
+        observed.copy_from_slice(&corrected[..gains.len()]);
 
         let [proportional, reset, damping] = self.gains;
         let error = entry.setpoint - corrected[1];
         *integral += reset * self.period * error;
-        let command = proportional * error + *integral - damping * (corrected[1] - load_speed.dot(&corrected));
+        let seen: f64 = load_speed.iter().zip(&corrected).map(|(share, state)| share * state).sum();
+        let command = proportional * error + *integral - damping * (corrected[1] - seen);
 
         let mut late = command;
         if let [first, ..] = line {

@@ -3,7 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use driveline::design::{ClosedLoop, Error, LoopObserver, Plant};
+use driveline::design::{ClosedLoop, CutLoop, Error, LoopObserver, Plant};
 use driveline::machine::TwoMass;
 use nalgebra::Complex;
 use serde::Serialize;
@@ -17,15 +17,28 @@ use crate::machine_file::designs::Designs;
 pub const CUT: &str = "at the torque on the machine: from a torque that is added there, through machine, encoder, \
     observer, governor and actuator, back to the torque that the drive gives";
 
-/// Points of a response, evenly spread by their logarithm.
-const POINTS: usize = 800;
-/// Points about each resonance, and how far they reach.
-const ABOUT: usize = 60;
+/// How finely it is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Detail {
+    /// Points of a response, evenly spread by their logarithm.
+    points: usize,
+    /// Points about each resonance.
+    about: usize,
+    /// Most points of a step.
+    shown: usize,
+}
+
+impl Detail {
+    /// Every point.
+    pub const FULL: Self = Self { points: 800, about: 60, shown: 1_000 };
+    /// A quarter: while a slider moves.
+    pub const QUICK: Self = Self { points: 200, about: 20, shown: 250 };
+}
+
+/// How far the points about a resonance reach.
 const REACH: f64 = 0.1;
 /// Highest frequency, over half the rate, where a sampled response has its zeros.
 const HIGHEST: f64 = 0.98;
-/// Most points of a step.
-const SHOWN: usize = 1_000;
 /// Steps last so many radians of the speed's natural frequency.
 const RADIANS: f64 = 14.0;
 
@@ -73,14 +86,18 @@ pub struct Range {
 }
 
 impl Range {
-    fn of(curves: &[Curve]) -> Self {
+    /// Of curves whose gain has a least and a greatest factor.
+    fn of(curves: &[Curve], factors: [f64; 2]) -> Self {
         let over = |part: fn(&Curve) -> &Vec<f64>, better: fn(f64, f64) -> f64| {
             let mut all = curves.iter().map(part);
             let first = all.next().cloned().unwrap_or_default();
             all.fold(first, |found, one| found.iter().zip(one).map(|(a, b)| better(*a, *b)).collect())
         };
-        let curve = |better| Curve { gain: over(|c| &c.gain, better), phase: over(|c| &c.phase, better) }.short();
-        Self { least: curve(f64::min), most: curve(f64::max) }
+        let curve = |better, factor| {
+            let gain = over(|c| &c.gain, better).into_iter().map(|gain| factor * gain).collect();
+            Curve { gain, phase: over(|c| &c.phase, better) }.short()
+        };
+        Self { least: curve(f64::min, factors[0]), most: curve(f64::max, factors[1]) }
     }
 }
 
@@ -182,15 +199,20 @@ pub struct Responses {
 struct InLoop<'a> {
     closed: &'a ClosedLoop,
     plant: Plant,
+    cut: CutLoop,
     body: Body,
     torque: f64,
     late: bool,
 }
 
-impl InLoop<'_> {
+impl<'a> InLoop<'a> {
+    fn new(closed: &'a ClosedLoop, plant: Plant, body: Body) -> Self {
+        Self { closed, plant, cut: closed.cut(&plant), body, torque: 1.0, late: false }
+    }
+
     /// Response of the loop at a frequency (rad/s).
     fn open(&self, frequency: f64) -> Complex<f64> {
-        let (re, im) = self.closed.response(&self.plant, frequency);
+        let (re, im) = self.cut.response(frequency);
         Complex::new(re, im) * self.torque
     }
 }
@@ -200,7 +222,7 @@ impl Responses {
     ///
     /// # Errors
     /// The library's sentence for a loop that it does not have.
-    pub fn of(machine: &MachineFile, designs: &Designs) -> Result<Self, Error> {
+    pub fn of(machine: &MachineFile, designs: &Designs, detail: Detail) -> Result<Self, Error> {
         let Designs { two, speed_loop, .. } = designs;
         let observer = match designs.is_rigid() {
             true => LoopObserver::Rigid(&designs.rigid),
@@ -209,39 +231,33 @@ impl Responses {
         let (actuator, tolerance, period) = (machine.actuator(), machine.tolerance(), speed_loop.period);
         let loops = observer.close_within(speed_loop, actuator, &tolerance)?;
         let (modes, load) = (machine.modes(), machine.chain.masses().len() - 1);
-        let nominal = InLoop {
-            closed: &loops[0],
-            plant: Plant::of_modes(two.total_inertia(), &modes),
-            body: Body::of_modes(two.total_inertia(), &modes, load),
-            torque: 1.0,
-            late: false,
-        };
+        let inertia = two.total_inertia();
+        let (plant, body) = (Plant::of_modes(inertia, &modes), Body::of_modes(inertia, &modes, load));
+        let nominal = InLoop::new(&loops[0], plant, body);
         let slowest = 1e-2 * speed_loop.integral / speed_loop.proportional;
-        let frequencies = frequencies(slowest, HIGHEST * PI / period, two.antiresonance(), &nominal.body);
-        let within: Vec<(u32, InLoop)> = (0..4 * tolerance.machines())
+        let frequencies = frequencies(slowest, HIGHEST * PI / period, two.antiresonance(), &nominal.body, detail);
+        // with the torque as it is: its tolerance is a factor on the response
+        let within: Vec<(u32, InLoop)> = (0..2 * tolerance.machines())
             .map(|index| {
-                let machine = tolerance.machine(two, index / 4);
-                let (late, most) = (index & 1 == 1, index & 2 == 2);
-                let torque = if most { tolerance.torque.max } else { tolerance.torque.min };
-                let closed = &loops[usize::from(late)];
-                let one = InLoop { closed, plant: Plant::of(&machine), body: Body::of(&machine), torque, late };
-                (index / 4, one)
+                let (machine, late) = (tolerance.machine(two, index / 2), index & 1 == 1);
+                let one = InLoop::new(&loops[usize::from(late)], Plant::of(&machine), Body::of(&machine));
+                (index / 2, InLoop { late, ..one })
             })
             .collect();
-        let open = |one: &InLoop| frequencies.iter().map(|&at| one.open(at)).collect::<Vec<_>>();
-        let of_loops: Vec<Vec<Complex<f64>>> = within.iter().map(|(_, one)| open(one)).collect();
-        let (nearest, distance) = of_loops
-            .iter()
-            .map(|one| distance(one))
-            .enumerate()
-            .fold((0, f64::INFINITY), |best, one| if one.1 < best.1 { one } else { best });
-        let (index, worst) = &within[nearest];
+        let torques = [tolerance.torque.min, tolerance.torque.max];
+        let of_loops: Vec<Vec<Complex<f64>>> =
+            within.iter().map(|(_, one)| frequencies.iter().map(|&at| one.open(at)).collect()).collect();
+        let all = of_loops.iter().zip(&within).flat_map(|(open, one)| torques.map(|torque| (open, one, torque)));
+        let ((index, worst), torque, distance) = all
+            .map(|(open, one, torque)| (one, torque, distance(open, torque)))
+            .min_by(|a, b| a.2.total_cmp(&b.2))
+            .ok_or(Error::Tolerance)?;
         let factors = tolerance.machine(two, *index);
         let drawn_by = Drawn {
             motor_inertia: short(factors.motor_inertia / two.motor_inertia),
             load_inertia: short(factors.load_inertia / two.load_inertia),
             stiffness: short(factors.stiffness / two.stiffness),
-            torque: worst.torque,
+            torque,
             is_late: worst.late,
             distance: short(distance),
         };
@@ -251,7 +267,8 @@ impl Responses {
         };
         let seen = Observer::of(&observer, two).ok_or(Error::Unobservable)?;
         let ticks = (RADIANS / (speed_loop.bandwidth * period)).ceil().clamp(2.0, 4e6) as usize;
-        let stride = ticks.div_ceil(SHOWN);
+        let stride = ticks.div_ceil(detail.shown);
+        let worst = &InLoop { torque, body: worst.body.clone(), ..*worst };
         let one = |one: &InLoop| {
             let actuator = if one.late { later } else { actuator };
             let linear = Linear::new(one.body.clone(), seen.clone(), speed_loop, actuator, one.torque)?;
@@ -259,16 +276,16 @@ impl Responses {
             let steps = is_stable.then(|| Steps::of(&linear, ticks, stride));
             Ok::<_, Error>(One::of(one, &frequencies, period, &linear, steps))
         };
-        let plants: Vec<Curve> =
-            within.iter().map(|(_, one)| Curve::whole(&mobility(&one.body, &frequencies))).collect();
+        let prompt = within.iter().filter(|(_, one)| !one.late);
+        let plants: Vec<Curve> = prompt.map(|(_, one)| Curve::whole(&mobility(&one.body, &frequencies))).collect();
         let curves: Vec<Curve> = of_loops.iter().map(|one| Curve::whole(one)).collect();
         Ok(Self {
             cut: CUT,
             nominal: one(&nominal)?,
             drawn: one(worst)?,
             drawn_by,
-            open_within: Range::of(&curves),
-            plant_within: Range::of(&plants),
+            open_within: Range::of(&curves, torques),
+            plant_within: Range::of(&plants, [1.0; 2]),
             observer: Observed::of(&seen, two, &frequencies, period).ok_or(Error::Unobservable)?,
             time: (0..ticks).step_by(stride).map(|tick| short(tick as f64 * period)).collect(),
             hz: frequencies.iter().map(|at| short(at / TAU)).collect(),
@@ -282,7 +299,7 @@ impl One {
         Self {
             plant: Curve::of(&mobility(&one.body, frequencies)),
             crossings: crossings(|at| one.open(at), frequencies, &open),
-            distance: short(distance(&open)),
+            distance: short(distance(&open, 1.0)),
             real: open.iter().map(|value| short(value.re)).collect(),
             imaginary: open.iter().map(|value| short(value.im)).collect(),
             open: Curve::of(&open),
@@ -326,25 +343,33 @@ impl Observed {
 
 /// Six digits, as the arrays are written.
 pub fn short(value: f64) -> f64 {
-    format!("{value:.5e}").parse().unwrap_or(value)
+    let exponent = (value.abs().log10().floor() - 5.0) as i32;
+    // powers of ten up to the 22nd are numbers, so the quotient or the product is rounded once
+    match exponent {
+        0..=22 if value != 0.0 => (value / 10f64.powi(exponent)).round() * 10f64.powi(exponent),
+        -22..0 => (value * 10f64.powi(-exponent)).round() / 10f64.powi(-exponent),
+        _ => format!("{value:.5e}").parse().unwrap_or(value),
+    }
 }
 
 fn mobility(body: &Body, frequencies: &[f64]) -> Vec<Complex<f64>> {
     frequencies.iter().map(|&at| body.mobility(at)).collect()
 }
 
-fn distance(open: &[Complex<f64>]) -> f64 {
-    open.iter().map(|value| (value + 1.0).norm()).fold(f64::INFINITY, f64::min)
+/// Least distance from -1 of a response times a factor.
+fn distance(open: &[Complex<f64>], factor: f64) -> f64 {
+    open.iter().map(|value| (value * factor + 1.0).norm_sqr()).fold(f64::INFINITY, f64::min).sqrt()
 }
 
 /// Frequencies (rad/s) from the slowest to the highest, denser about the antiresonance, the resonances and on their
 /// flanks.
-fn frequencies(slowest: f64, highest: f64, antiresonance: f64, body: &Body) -> Vec<f64> {
-    let even = (0..POINTS).map(|point| slowest * (highest / slowest).powf(point as f64 / (POINTS - 1) as f64));
+fn frequencies(slowest: f64, highest: f64, antiresonance: f64, body: &Body, detail: Detail) -> Vec<f64> {
+    let Detail { points, about, .. } = detail;
+    let even = (0..points).map(|point| slowest * (highest / slowest).powf(point as f64 / (points - 1) as f64));
     let mut all: Vec<f64> = even.collect();
     for [frequency, damping] in body.resonances().chain([[antiresonance, 0.0]]) {
-        let share = |point: usize| 1.0 - REACH + 2.0 * REACH * point as f64 / ABOUT as f64;
-        all.extend((0..=ABOUT).map(|point| frequency * share(point)));
+        let share = |point: usize| 1.0 - REACH + 2.0 * REACH * point as f64 / about as f64;
+        all.extend((0..=about).map(|point| frequency * share(point)));
         let widths = [0.0, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0];
         all.extend(widths.into_iter().flat_map(|n| [frequency - n * damping, frequency + n * damping]));
     }
