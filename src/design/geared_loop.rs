@@ -1,8 +1,8 @@
 //! The speed loop behind gears with losses.
 
 use super::{
-    Actuator, Averaging, Error, ExactStep, GovernorDesign, LoopObserver, PlacedObserver, RigidDesign, Robustness,
-    SpeedLoopDesign, TwoMassDesign,
+    Actuator, Averaging, Error, ExactStep, GovernorDesign, LoopObserver, Margins, PlacedObserver, Plant, RigidDesign,
+    Robustness, SpeedLoopDesign, TwoMassDesign,
 };
 use crate::machine::{Losses, TwoMass};
 use crate::math::sqrt;
@@ -104,7 +104,30 @@ impl LoopGears {
         Ok(())
     }
 
-    /// The same for the governor of a slow actuator.
+    /// Margins of a speed loop with its observer round these two masses: the motor driving, and the load; `None`
+    /// without losses, and where a gear locks.
+    ///
+    /// # Errors
+    /// [`Error::LoopUnstable`], and those of [`ClosedLoop::of`](super::ClosedLoop::of).
+    pub const fn margins(
+        &self,
+        machine: &TwoMass,
+        observer: LoopObserver<'_>,
+        speed_loop: &SpeedLoopDesign,
+        actuator: Actuator,
+    ) -> Result<[Option<Margins>; 2], Error> {
+        let (flows, mut found) = (self.flows(), [None; 2]);
+        each!(way, 0..flows.len(), {
+            if let Some(flow) = &flows[way] {
+                let (machine, seen) = flow.round(machine, observer);
+                let closed = get!(seen.observer().close(speed_loop, actuator));
+                found[way] = Some(get!(closed.margins(&Plant::of(&machine))));
+            }
+        });
+        Ok(found)
+    }
+
+    /// As [`try_robust`](Self::try_robust) for the governor of a slow actuator.
     ///
     /// # Errors
     /// Those of [`GovernorDesign::try_robust`].

@@ -184,6 +184,10 @@ pub struct SpeedLoop {
     pub margins: Option<Margins>,
     /// Why there are no margins.
     pub no_margins: Option<String>,
+    /// Margins of the two masses with the losses of the gears, the motor driving; `null` without losses.
+    pub margins_motor_driving: Option<LeastMargins>,
+    /// The same with the load driving; `null` where a gear locks as well.
+    pub margins_load_driving: Option<LeastMargins>,
     /// The least margins within the tolerances; `null` where the loop is unstable within them.
     pub least_margins: Option<LeastMargins>,
     /// What the loop has not within the tolerances: 6 dB, 30 degrees, stability. `null` where it has all.
@@ -202,6 +206,8 @@ impl SpeedLoop {
         };
         let margins = Margins::of(machine, two, &observer.close(governor, actuator)?);
         let least = two.least_margins(observer, governor, actuator, tolerance);
+        let with_losses = machine.loop_gears().margins(two, observer, governor, actuator).unwrap_or_default();
+        let [motor_driving, load_driving] = with_losses.map(|found| found.as_ref().map(LeastMargins::of));
         let no_margins = margins.as_ref().err().map(|&error| lack.unwrap_or(Lack::of(error)).to_string());
         Ok(Self {
             observer: name,
@@ -213,6 +219,8 @@ impl SpeedLoop {
             // with two masses as the machine: they mean nothing where the whole machine is unstable
             least_margins: least.ok().filter(|_| no_margins.is_none()).map(|least| LeastMargins::of(&least)),
             no_margins,
+            margins_motor_driving: motor_driving,
+            margins_load_driving: load_driving,
             not_robust: lack.map(|lack| lack.to_string()),
             spectral_radius: governor.spectral_radius,
         })

@@ -183,7 +183,8 @@ fn text(machine: &MachineFile, plan: &Plan) -> String {
             significant(governor.damping),
             significant(governor.bandwidth / TAU),
             wide(machine, plan),
-            governor.margins.as_ref().map_or_else(|| none("margins", governor.no_margins.as_ref()), margins),
+            governor.margins.as_ref().map_or_else(|| none("margins", governor.no_margins.as_ref()), margins)
+                + &with_losses(governor),
             within_tolerances(machine, governor),
         ));
     }
@@ -280,6 +281,17 @@ fn each(margins: &LeastMargins) -> String {
         any(margins.delay.map(|delay| format!("{} ms", significant(1e3 * delay)))),
         significant(margins.modulus),
     )
+}
+
+/// The margins with the losses of the gears, in a line for each way that power flows.
+fn with_losses(speed_loop: &SpeedLoop) -> String {
+    let ways = [("motor", &speed_loop.margins_motor_driving), ("load", &speed_loop.margins_load_driving)];
+    let line = |(way, found): (&str, &Option<LeastMargins>)| {
+        found
+            .as_ref()
+            .map(|found| format!("margins with the losses of the gears, the {way} driving: {}\n", each(found)))
+    };
+    ways.into_iter().filter_map(line).collect()
 }
 
 /// The margins in two lines.

@@ -276,6 +276,11 @@ impl MachineFile {
         (gear, LoadGear { efficiency: driving, back_efficiency: driven, inertia: load })
     }
 
+    /// What a loop has of them.
+    pub const fn loop_gears(&self) -> LoopGears {
+        LoopGears { losses: self.chain.losses(), friction: self.gears([1.0; 2], 0.0).0.friction(), behind: true }
+    }
+
     /// The same for the file's rate and encoder, as constants of a drive can hold them.
     ///
     /// # Errors
@@ -371,8 +376,7 @@ impl MachineFile {
     ) -> Result<Option<Lack>, Error> {
         let closed = observer.close(speed_loop, self.actuator())?;
         let robust = two.try_robust(observer, speed_loop, self.actuator(), &self.tolerance(), &Robustness::USUAL);
-        let gears =
-            LoopGears { losses: self.chain.losses(), friction: self.gears([1.0; 2], 0.0).0.friction(), behind: true };
+        let gears = self.loop_gears();
         let robust =
             robust.and_then(|()| gears.try_robust(two, observer, speed_loop, self.actuator(), &Robustness::USUAL));
         let plant = Plant::of_modes(two.total_inertia(), &self.modes());

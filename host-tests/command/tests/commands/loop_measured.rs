@@ -9,6 +9,7 @@ use std::f64::consts::{PI, TAU};
 use std::fs;
 use std::process::Command;
 
+use cargo_driveline::cosim::fmu::Fmu;
 use cargo_driveline::machine_file::designs::Designs;
 use cargo_driveline::machine_file::parse;
 use driveline::drive::{Config, Drive, Limits};
@@ -17,6 +18,7 @@ use driveline::number::{Fixed, Number};
 use driveline::observer::{RigidConfig, RigidObserver, TwoMassConfig, TwoMassObserver};
 use driveline::sample::Sample;
 use driveline::settings::{Bases, Gear, SpeedLoopSettings};
+use driveline_qemu::clone::target_directory;
 use nalgebra::{Complex, DMatrix};
 use rustfft::FftPlanner;
 use serde_json::Value;
@@ -27,6 +29,7 @@ const PERIODS: f64 = 120.0;
 const AGREES: f64 = 0.02;
 
 /// A machine at the motor's speed: inertias, and springs as two masses, stiffness and damping. The motor is mass 0.
+#[derive(Clone)]
 struct Body {
     inertias: Vec<f64>,
     springs: Vec<(usize, usize, f64, f64)>,
@@ -35,6 +38,10 @@ struct Body {
     lag: f64,
     /// The mass at the end of the chain.
     load: usize,
+    /// Efficiency of a gear before the last spring, the motor driving.
+    efficiency: f64,
+    /// Setpoint (rad/s) and load torque (N m) that it is measured at.
+    at: [f64; 2],
 }
 
 impl Body {
@@ -90,8 +97,10 @@ fn tick(body: &Body, period: f64) -> DMatrix<f64> {
     for mass in 0..masses {
         rates[(mass, masses + mass)] = 1.0;
     }
-    for &(a, b, stiffness, damping) in &body.springs {
-        for (on, from, sign) in [(a, a, -1.0), (a, b, 1.0), (b, b, -1.0), (b, a, 1.0)] {
+    for (index, &(a, b, stiffness, damping)) in body.springs.iter().enumerate() {
+        // what the motor's side feels of the torque that the spring has
+        let felt = if index + 1 == body.springs.len() { 1.0 / body.efficiency } else { 1.0 };
+        for (on, from, sign) in [(a, a, -felt), (a, b, felt), (b, b, -1.0), (b, a, 1.0)] {
             rates[(masses + on, from)] += sign * stiffness / body.inertias[on];
             rates[(masses + on, masses + from)] += sign * damping / body.inertias[on];
         }
@@ -116,7 +125,8 @@ fn measured(body: &Body, period: f64, ticks: usize, lines: &[usize], size: f64, 
         added[line] = Complex::from_polar(size, PI * (n * n) as f64 / lines.len() as f64);
     }
     planner.plan_fft_inverse(ticks).process(&mut added);
-    let shown = body.run(period, 2 * ticks, drive, |k| [0.0, added[k % ticks].re, 0.0]);
+    let [setpoint, load] = body.at;
+    let shown = body.run(period, 2 * ticks, drive, |k| [setpoint, added[k % ticks].re, load]);
     let mut given: Vec<_> = shown[ticks..].iter().map(|shown| Complex::from(shown[2])).collect();
     planner.plan_fft_forward(ticks).process(&mut given);
     let mut put: Vec<Complex<f64>> = added.iter().map(|value| Complex::from(value.re)).collect();
@@ -179,6 +189,36 @@ fn fixed(text: &str) -> Driven {
     drive!(Fixed, Fixed::from_f64, text, bases)
 }
 
+/// The drive as `export fmu` writes it, with its ramp and the losses that it knows.
+fn exported(text: &str, number: &str) -> Driven {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, fmu) = (folder.path().join("machine.toml"), folder.path().join("drive.fmu"));
+    fs::write(&file, text).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+    command.args(["driveline", "export", "fmu", "--number", number, "--out"]).args([&fmu, &file]);
+    let run = command.env("CARGO_TARGET_DIR", target_directory().unwrap().join("exported/target")).output().unwrap();
+    assert!(run.status.success(), "{run:?}");
+    let mut fmu = Fmu::open(&fmu).unwrap();
+    let of = |causality: &str, names: [&str; 3]| {
+        names.map(|name| fmu.description.scalar(name, causality).unwrap().reference)
+    };
+    let inputs = of("input", ["motor_angle", "motor_torque", "speed_setpoint"]);
+    let outputs = of("output", ["torque_setpoint", "load_speed", "shaft_torque"]);
+    let period = 1.0 / f64::from(parse("machine", text).unwrap().control.rate_hz);
+    fmu.instance.begin().unwrap();
+    fmu.instance.start().unwrap();
+    let mut tick = 0.0;
+    Box::new(move |angle, heard, setpoint| {
+        let turned = f64::from(angle) / 4_294_967_296.0 * TAU;
+        fmu.instance.set(&inputs, &[turned, heard, setpoint]).unwrap();
+        fmu.instance.step(tick * period, period).unwrap();
+        tick += 1.0;
+        let mut found = [0.0; 3];
+        fmu.instance.get(&outputs, &mut found).unwrap();
+        found
+    })
+}
+
 /// The drawn steps against those of the drive, small enough for no limit and no ramp: the largest deviation over the largest value.
 fn stepped(responses: &Value, body: &Body, rate: f64, limit: f64, drive: &dyn Fn() -> Driven) -> f64 {
     let time = numbers(&responses["time"]);
@@ -235,9 +275,20 @@ fn observed(responses: &Value, rate: f64, places: &[f64], drive: &dyn Fn() -> Dr
     worst
 }
 
+/// What is measured.
+#[derive(Clone, Copy)]
+enum By {
+    /// The parts of the drive, without its ramp.
+    Single,
+    /// The same in fixed point.
+    Fixed,
+    /// The exported FMU in a number, and the margins that it is compared with.
+    Exported(&'static str, &'static str),
+}
+
 /// What a file's page says, against the measurement. Gives the largest deviations: of the drawn response, of the
-/// margins, of the steps, of the observer.
-fn compared(name: &str, text: &str, body: &Body, is_fixed: bool) -> [f64; 4] {
+/// margins, of the steps, of the observer; of an exported drive the margins' alone.
+fn compared(name: &str, text: &str, body: &Body, by: By) -> [f64; 4] {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("machine.toml");
     fs::write(&file, text).unwrap();
@@ -248,8 +299,8 @@ fn compared(name: &str, text: &str, body: &Body, is_fixed: bool) -> [f64; 4] {
         .output()
         .unwrap();
     let said: Value = serde_json::from_slice(&run.stdout).unwrap_or_else(|_| panic!("{name}: {run:?}"));
-    let (rate, margins, responses) =
-        (said["rate_hz"].as_f64().unwrap(), &said["speed_loop"]["margins"], &said["responses"]);
+    let key = if let By::Exported(_, key) = by { key } else { "margins" };
+    let (rate, margins, responses) = (said["rate_hz"].as_f64().unwrap(), &said["speed_loop"][key], &said["responses"]);
     assert!(!margins.is_null(), "{name}: {said:#?}");
     let (hz, nominal) = (numbers(&responses["hz"]), &responses["nominal"]);
     let drawn: Vec<Complex<f64>> = numbers(&nominal["real"])
@@ -277,7 +328,11 @@ fn compared(name: &str, text: &str, body: &Body, is_fixed: bool) -> [f64; 4] {
     // all sines together stay below a third of the largest torque, and far above a unit of fixed point
     let limit = parse("machine", text).unwrap().rating().torque_limit.0;
     let size = 0.05 * limit / (lines.len() as f64).sqrt();
-    let drive = || if is_fixed { fixed(text) } else { single(text) };
+    let drive = || match by {
+        By::Single => single(text),
+        By::Fixed => fixed(text),
+        By::Exported(number, _) => exported(text, number),
+    };
     let found = measured(body, 1.0 / rate, ticks, &lines, size, drive());
     let found: Vec<(f64, Complex<f64>)> =
         lines.iter().map(|&line| line as f64 * rate / ticks as f64).zip(found).collect();
@@ -315,6 +370,9 @@ fn compared(name: &str, text: &str, body: &Body, is_fixed: bool) -> [f64; 4] {
         worst = worst.max(off);
     }
     println!("{name}: {} lines, response off by {:.2} % at most", lines.len(), 100.0 * response);
+    if let By::Exported(..) = by {
+        return [0.0, worst, 0.0, 0.0];
+    }
     let [steps, observer] = [stepped(responses, body, rate, limit, &drive), observed(responses, rate, &places, &drive)];
     println!("{name}: steps off by {:.2} % of their largest, observer by {:.2} %", 100.0 * steps, 100.0 * observer);
     // the page has the figures of the JSON
@@ -325,8 +383,12 @@ fn compared(name: &str, text: &str, body: &Body, is_fixed: bool) -> [f64; 4] {
 }
 
 fn two_masses([motor, load]: [f64; 2], stiffness: f64, damping: f64) -> Body {
-    Body { inertias: vec![motor, load], springs: vec![(0, 1, stiffness, damping)], delay: 0, lag: 0.0, load: 1 }
+    Body { inertias: vec![motor, load], springs: vec![(0, 1, stiffness, damping)], ..BARE }
 }
+
+/// Two masses without a spring.
+const BARE: Body =
+    Body { inertias: Vec::new(), springs: Vec::new(), delay: 0, lag: 0.0, load: 1, efficiency: 1.0, at: [0.0; 2] };
 
 /// The tail of a file: encoder, rate, disturbance, limits.
 fn tail(lines: u32, rate: u32, accuracy: f64, step: f64, within: f64, torque: f64, speed: f64) -> String {
@@ -347,9 +409,8 @@ fn the_loop_on_the_page_is_the_one_that_turns() {
     let hoist = Body {
         inertias: vec![0.62, 0.08, 12_000.0 * square],
         springs: vec![(0, 1, 5.0e4, 2.0), (1, 2, 2.9e6 * square, 3.6e3 * square)],
-        delay: 0,
-        lag: 0.0,
         load: 2,
+        ..BARE
     };
     // two gears of 3 and 4, an actuator that is late and slow, and few ticks
     let geared = format!(
@@ -367,6 +428,7 @@ fn the_loop_on_the_page_is_the_one_that_turns() {
         delay: 1,
         lag: 1.0 / (TAU * 200.0),
         load: 2,
+        ..BARE
     };
     // a pump on a branch of the motor, turning twice as fast; a fast drive
     let branched = format!(
@@ -379,20 +441,44 @@ fn the_loop_on_the_page_is_the_one_that_turns() {
     let branched_body = Body {
         inertias: vec![0.004, 0.006, 0.0001 / 0.25],
         springs: vec![(0, 1, 3000.0, 0.3), (0, 2, 1500.0 / 0.25, 0.3 / 0.25)],
-        delay: 0,
-        lag: 0.0,
-        load: 1,
+        ..BARE
+    };
+    // a fan behind two couplings; the hoist while it lifts its load, with the loss of its gear
+    let fan = format!(
+        "name = \"fan\"\n[[element]]\nkind = \"motor\"\ninertia = 1.1\n[[element]]\nkind = \"shaft\"\nstiffness = 6400.0\n\
+         damping = 3.0\n[[element]]\nkind = \"rotor\"\nlabel = \"hub\"\ninertia = 0.4\n[[element]]\nkind = \"shaft\"\n\
+         stiffness = 190000.0\ndamping = 4.0\n[[element]]\nkind = \"rotor\"\ninertia = 7.5\n{}",
+        tail(1024, 5_000, 4.0, 200.0, 20.0, 700.0, 180.0)
+    );
+    let fan_body = Body {
+        inertias: vec![1.1, 0.4, 7.5],
+        springs: vec![(0, 1, 6_400.0, 3.0), (1, 2, 190_000.0, 4.0)],
+        load: 2,
+        at: [40.0, 0.0],
+        ..BARE
+    };
+    let lifting = Body {
+        inertias: hoist.inertias.clone(),
+        springs: hoist.springs.clone(),
+        efficiency: 0.94,
+        at: [60.0, 12_000.0 * 9.80665 * travel],
+        ..hoist.clone()
     };
     let roll = two_masses([0.35, 0.48], 2.0e4, 0.5);
-    let cases: [(&str, String, Body, bool); 5] = [
-        ("roll", own("roll"), two_masses([0.35, 0.48], 2.0e4, 0.5), false),
-        ("roll in fixed point", own("roll"), roll, true),
-        ("hoist", own("hoist"), hoist, false),
-        ("geared", geared, geared_body, false),
-        ("branched", branched, branched_body, false),
+    let nominal = |number| By::Exported(number, "margins");
+    let cases = [
+        ("roll", own("roll"), two_masses([0.35, 0.48], 2.0e4, 0.5), By::Single),
+        ("roll in fixed point", own("roll"), two_masses([0.35, 0.48], 2.0e4, 0.5), By::Fixed),
+        ("hoist", own("hoist"), hoist, By::Single),
+        ("geared", geared.clone(), geared_body.clone(), By::Single),
+        ("branched", branched, branched_body, By::Single),
+        ("roll, FMU", own("roll"), roll, nominal("f32")),
+        ("geared, FMU in fixed point", geared, geared_body, nominal("fixed")),
+        ("fan, FMU", fan, fan_body, nominal("f32")),
+        ("hoist that lifts, FMU", own("hoist"), lifting, By::Exported("f32", "margins_motor_driving")),
     ];
-    for (name, text, body, is_fixed) in &cases {
-        let found = compared(name, text, body, *is_fixed);
+    for (name, text, body, by) in &cases {
+        let found = compared(name, text, body, *by);
         assert!(found.iter().all(|off| *off < AGREES), "{name}: {found:?}");
     }
 }

@@ -9,7 +9,7 @@ use crate::cli::Plan;
 use crate::cli::controller::LeastMargins;
 
 /// What the loop leaves out.
-const LINEAR: &str = "It is linear: gaps are closed, gears have no losses, and no limit acts.";
+const LINEAR: &str = "It is linear: gaps are closed, gears as drawn have no losses, and no limit acts.";
 
 /// The page as HTML; without a speed loop, tables alone.
 pub fn page(plan: &Plan, responses: Option<&Responses>) -> String {
@@ -201,7 +201,12 @@ fn tables(plan: &Plan, responses: &Responses) -> Vec<Section> {
     let least = governor.and_then(|governor| governor.least_margins.as_ref()).map(row);
     let mut margins =
         Table::new(["margins", "gain up, dB", "gain down, dB", "phase, °", "delay, ms", "distance from -1"]);
-    for (name, cells) in [("nominal", nominal), ("least within the tolerances", least)] {
+    let ways = governor
+        .map_or([const { None }; 2], |of| [&of.margins_motor_driving, &of.margins_load_driving].map(Option::as_ref));
+    let with_losses = ["with losses, the motor driving", "with losses, the load driving"].into_iter().zip(ways);
+    let with_losses = with_losses.filter_map(|(name, least)| Some((name, Some(row(least?)))));
+    let rows = [("nominal", nominal)].into_iter().chain(with_losses).chain([("least within the tolerances", least)]);
+    for (name, cells) in rows {
         let cells = cells.unwrap_or_else(|| std::array::from_fn(|_| "none".to_owned()));
         margins.row([name.to_owned()].into_iter().chain(cells));
     }
