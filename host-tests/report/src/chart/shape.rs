@@ -1,4 +1,4 @@
-//! A mode shape: how far each mass of the chain turns, referred to the motor.
+//! A mode shape: how far each mass turns, referred to the motor, with a line for each link.
 
 use crate::format;
 use crate::svg::{Anchor, Scale, Svg};
@@ -17,8 +17,9 @@ pub struct Station {
     pub share: f64,
 }
 
-/// Draws a shape, scaled so that its largest amplitude is one.
-pub fn mode_shape(stations: &[Station], shape: &[f64], title: &str) -> String {
+/// Draws a shape, scaled so that its largest amplitude is one. `links` are the two stations that each joins: a branch
+/// leaves the station that it is on.
+pub fn mode_shape(stations: &[Station], links: &[[usize; 2]], shape: &[f64], title: &str) -> String {
     let mut svg = Svg::new(WIDTH, TOP + HEIGHT + 34.0);
     let count = stations.len().min(shape.len());
     let most = shape.iter().filter(|value| value.is_finite()).fold(0.0, |most: f64, value| most.max(value.abs()));
@@ -30,7 +31,11 @@ pub fn mode_shape(stations: &[Station], shape: &[f64], title: &str) -> String {
     svg.line("edge", LEFT, zero, RIGHT, zero);
     let points: Vec<(f64, f64)> =
         (0..count).filter_map(|index| x.place(index as f64).zip(y.place(shape[index] / most))).collect();
-    svg.path("shape", &points);
+    for ends in links.iter().map(|ends| ends.map(|end| points.get(end).copied())) {
+        if let [Some(from), Some(to)] = ends {
+            svg.path("shape", &[from, to]);
+        }
+    }
     for (station, &(px, py)) in stations.iter().zip(&points) {
         svg.line("stem", px, zero, px, py);
         // The area of a disc is as its share; the smallest can still be seen.
@@ -47,4 +52,20 @@ pub fn mode_shape(stations: &[Station], shape: &[f64], title: &str) -> String {
     }
     let values: Vec<String> = shape.iter().map(|value| format::significant(value / most)).collect();
     svg.finish(&format!("{title}: {}", values.join(", ")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Station, mode_shape};
+
+    /// Three pumps on one wheel: a line to each, and none from pump to pump.
+    #[test]
+    fn a_branch_leaves_the_station_that_it_is_on() {
+        let station = |name: &str| Station { name: name.to_owned(), share: 0.25 };
+        let stations = ["wheel", "a", "b", "c"].map(station);
+        let svg = mode_shape(&stations, &[[0, 1], [0, 2], [0, 3]], &[1.0, -0.2, -0.5, -1.0], "1. 20 Hz");
+        let lines: Vec<&str> = svg.split(r#"class="shape" d="M"#).skip(1).collect();
+        let wheel = lines[0].split('L').next().unwrap();
+        assert!(lines.len() == 3 && lines.iter().all(|line| line.starts_with(wheel)), "{svg}");
+    }
 }

@@ -7,15 +7,19 @@ use driveline_report::{Arrangement, Figure};
 /// Most shapes that are drawn.
 const DRAWN: usize = 24;
 
-/// The shapes of the lowest modes, each as its frequency (Hz) and the amplitudes of the stations in any scale; none where nothing
-/// vibrates.
-pub fn shapes<'m>(stations: &[Station], modes: impl Iterator<Item = (f64, &'m [f64])>) -> Option<Figure> {
+/// The shapes of the lowest modes, each as its frequency (Hz) and the amplitudes of the stations in any scale, with the
+/// stations that each link joins; none where nothing vibrates.
+pub fn shapes<'m>(
+    stations: &[Station],
+    links: &[[usize; 2]],
+    modes: impl Iterator<Item = (f64, &'m [f64])>,
+) -> Option<Figure> {
     let drawn = |(index, (hz, shape)): (usize, (f64, &[f64]))| {
-        mode_shape(stations, shape, &format!("{}. {} Hz", index + 1, significant(hz)))
+        mode_shape(stations, links, shape, &format!("{}. {} Hz", index + 1, significant(hz)))
     };
     let plots: Vec<String> = modes.take(DRAWN).enumerate().map(drawn).collect();
-    let text = "How far each mass turns, referred to the motor and scaled to one. The area of a disc is the mass's \
-        share of the inertia.";
+    let text = "How far each mass turns, referred to the motor and scaled to one; a line is a shaft or a mesh. The \
+        area of a disc is the mass's share of the inertia.";
     (!plots.is_empty()).then(|| Figure {
         title: "Natural vibrations".to_owned(),
         text: text.to_owned(),

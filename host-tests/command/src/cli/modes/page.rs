@@ -65,6 +65,7 @@ pub fn page(machine: &MachineFile, vibration: &Vibration) -> String {
     let natural: Vec<f64> = vibration.resonances.iter().map(|mode| mode.hz).collect();
     let diagram = diagram(&natural, machine.running.as_ref(), &machine.excitations, &vibration.critical);
     let modes = vibration.resonances.iter().map(|mode| (mode.hz, &*mode.shape));
+    let links: Vec<[usize; 2]> = machine.joints().iter().map(|joint| [joint.from, joint.to]).collect();
     Sheet {
         name: machine.name.clone(),
         kicker: "natural vibrations and reduction".to_owned(),
@@ -73,7 +74,7 @@ pub fn page(machine: &MachineFile, vibration: &Vibration) -> String {
                   referred to the motor's shaft."
                 .to_owned(),
         facts,
-        figures: shapes(&stations, modes).into_iter().chain(felt).chain(diagram.map(campbell)).collect(),
+        figures: shapes(&stations, &links, modes).into_iter().chain(felt).chain(diagram.map(campbell)).collect(),
         tables: tables(vibration),
     }
     .page()

@@ -109,6 +109,9 @@ impl TrainVibration {
             stations.map(|(name, j)| Station { name: name.clone(), share: j / total }).collect();
         let diagram = diagram(&natural, file.running.as_ref(), &file.excitations, &self.critical);
         let modes = self.resonances.iter().map(|mode| (mode.hz, &*mode.energy));
+        let joined = file.train.joined();
+        let pairs = joined.iter().flat_map(|link| link.windows(2));
+        let links: Vec<[usize; 2]> = pairs.map(|pair| [pair[0], pair[1]]).collect();
         Sheet {
             name: self.name.clone(),
             kicker: "natural vibrations and reduction".to_owned(),
@@ -116,7 +119,7 @@ impl TrainVibration {
                       energy."
                 .to_owned(),
             facts,
-            figures: shapes(&stations, modes).into_iter().chain(diagram.map(campbell)).collect(),
+            figures: shapes(&stations, &links, modes).into_iter().chain(diagram.map(campbell)).collect(),
             tables: self.tables(),
         }
         .page()

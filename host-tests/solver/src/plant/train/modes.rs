@@ -70,6 +70,12 @@ impl Train {
         network
     }
 
+    /// Coordinates that each link joins.
+    #[must_use]
+    pub fn joined(&self) -> Vec<Vec<usize>> {
+        self.links.iter().map(|link| link.terms.iter().map(|term| term.0).collect()).collect()
+    }
+
     /// Inertia of every coordinate, kg m2 or kg, with what a crank or a law adds at its starting angle.
     #[must_use]
     pub fn inertias(&self) -> Vec<f64> {
