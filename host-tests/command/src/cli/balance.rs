@@ -13,7 +13,7 @@ use driveline::balancing::{Aim, Complex, Correction, Error, Influence};
 use serde::Serialize;
 
 use super::Failure;
-use crate::machine_file::balance::{BalanceFile, Measured, PLANES, ROWS};
+use crate::machine_file::balance::{AngleConvention, BalanceFile, Measured, PLANES, ROWS};
 use driveline_report::chart::polar;
 use driveline_report::format::{percent, significant, turned};
 use driveline_report::{Arrangement, Fact, Figure, Key, Section, Sheet, Table};
@@ -82,7 +82,7 @@ struct Outcome {
     unit: String,
     weight_unit: &'static str,
     #[serde(skip)]
-    radians: bool,
+    angles: AngleConvention,
     /// Corrections that are on already; what follows is then a trim.
     corrections: usize,
     condition: f64,
@@ -124,7 +124,7 @@ fn said(outcome: &Outcome) -> String {
 /// The influence coefficients as a file takes them.
 fn coefficients(outcome: &Outcome) -> String {
     let angle =
-        |degrees: f64| if outcome.radians { format!("{:.4}", degrees.to_radians()) } else { turned(degrees, 4) };
+        |degrees: f64| if outcome.angles.radians { format!("{:.4}", degrees.to_radians()) } else { turned(degrees, 4) };
     let pair = |polar: &Polar| format!("[{:.6e}, {}]", polar.amplitude, angle(polar.degrees));
     let table = |plane: &Plane| {
         let pairs: Vec<String> = plane.coefficients.iter().map(pair).collect();
@@ -224,7 +224,7 @@ fn outcome(file: &BalanceFile) -> Result<Outcome, Fault> {
         name: file.name.clone(),
         unit: file.unit.clone(),
         weight_unit: file.weight_unit.name(),
-        radians: file.angles.radians,
+        angles: file.angles,
         corrections: *corrections,
         condition: correction.condition,
         rows,
@@ -294,15 +294,16 @@ fn tables(outcome: &Outcome) -> Vec<Section> {
 }
 
 fn page(outcome: &Outcome) -> Sheet {
+    let [of_weights, of_phases] = outcome.angles.senses();
     let vibration = |row: &Row| {
         let mut arrows = vec![arrow("s5", "baseline", row.baseline), arrow("s1", "now", row.now)];
         arrows.push(arrow("s2", "predicted", row.predicted_with_holes.unwrap_or(row.predicted)));
         let rpm = row.rpm.map_or_else(String::new, |rpm| format!(", {} rpm", significant(rpm)));
-        polar(&format!("{}{rpm}", row.sensor), &outcome.unit, &arrows)
+        polar(&format!("{}{rpm}", row.sensor), &outcome.unit, of_phases, &arrows)
     };
     let weight = |plane: &Plane| {
         let arrows = arrows_of(plane.weight, plane.holes.as_deref());
-        polar(&plane.plane, outcome.weight_unit, &arrows)
+        polar(&plane.plane, outcome.weight_unit, of_weights, &arrows)
     };
     Sheet {
         name: outcome.name.clone(),

@@ -20,8 +20,9 @@ pub struct Arrow {
     pub degrees: f64,
 }
 
-/// Draws arrows, the longest nearly to the rim; `unit` is that of their lengths.
-pub fn polar(title: &str, unit: &str, arrows: &[Arrow]) -> String {
+/// Draws arrows, the longest nearly to the rim; `unit` is that of their lengths, `sense` the one in which their angles
+/// run, in words.
+pub fn polar(title: &str, unit: &str, sense: &str, arrows: &[Arrow]) -> String {
     let mut svg = Svg::new(SIZE, SIZE + 26.0);
     let top = 26.0;
     let most = arrows.iter().map(|arrow| arrow.amplitude).filter(|a| a.is_finite()).fold(0.0, f64::max);
@@ -51,6 +52,7 @@ pub fn polar(title: &str, unit: &str, arrows: &[Arrow]) -> String {
     // in the corner, where neither an arrow nor an angle's name is
     let rim = format!("rim {} {unit}", format::significant_short(ring * rings));
     svg.text("marked", SIZE, top + SIZE - 6.0, Anchor::End, rim.trim());
+    svg.text("marked", 0.0, top + SIZE - 6.0, Anchor::Start, &format!("↺ {sense}"));
     for arrow in arrows.iter().filter(|arrow| arrow.amplitude.is_finite() && arrow.degrees.is_finite()) {
         let (x, y) = place(arrow.amplitude, arrow.degrees);
         let class = format!("arrow {}", arrow.class);
@@ -65,5 +67,5 @@ pub fn polar(title: &str, unit: &str, arrows: &[Arrow]) -> String {
     }
     let told: Vec<String> =
         arrows.iter().map(|arrow| format!("{} {}", arrow.name, format::significant(arrow.amplitude))).collect();
-    svg.finish(&format!("{title}: {}", told.join(", ")))
+    svg.finish(&format!("{title}, angles {sense}: {}", told.join(", ")))
 }

@@ -19,6 +19,9 @@ pub struct Outcome {
     name: String,
     unit: String,
     weight_unit: &'static str,
+    /// Sense in which the weights' angles run.
+    #[serde(skip)]
+    sense: &'static str,
     baseline: f64,
     /// One weight to add, or two of which one is right.
     weights: Vec<Polar>,
@@ -61,6 +64,7 @@ pub fn outcome(file: &BalanceFile, baseline: f64, found: &FromAmplitudes<f64>) -
         name: file.name.clone(),
         unit: file.unit.clone(),
         weight_unit: file.weight_unit.name(),
+        sense: file.angles.senses()[0],
         baseline,
         weights: weights.into_iter().map(Polar::of).collect(),
         disagreement: found.disagreement,
@@ -116,7 +120,7 @@ impl Outcome {
         }
         let plot = |(index, answer): (usize, &Answer)| {
             let arrows = arrows_of(answer.weight, answer.holes.as_deref());
-            polar(&format!("answer {}", index + 1), self.weight_unit, &arrows)
+            polar(&format!("answer {}", index + 1), self.weight_unit, self.sense, &arrows)
         };
         Sheet {
             name: self.name.clone(),

@@ -193,7 +193,7 @@ fn arrows(taken: &[Taken]) -> Vec<Figure> {
     vec![Figure {
         title: "Phasors".to_owned(),
         text: "The readings that are to be used, by how far the vibration leads the rotor's zero.".to_owned(),
-        plots: vec![polar("vibration", "", &arrows)],
+        plots: vec![polar("vibration", "", "phase leads", &arrows)],
         ..Figure::default()
     }]
 }

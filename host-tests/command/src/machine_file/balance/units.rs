@@ -101,6 +101,12 @@ impl AngleConvention {
         if self.radians { angle.to_degrees() } else { angle }
     }
 
+    /// The sense in which angles of weights and phases of readings run, in words.
+    pub const fn senses(self) -> [&'static str; 2] {
+        let weights = if self.against { "against rotation" } else { "with rotation" };
+        [weights, if self.lag { "phase lags" } else { "phase leads" }]
+    }
+
     /// A reading from the file, or for it: its own inverse.
     pub fn reading(self, z: Complex<f64>) -> Complex<f64> {
         if self.lag { z.conj() } else { z }
