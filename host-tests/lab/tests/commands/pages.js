@@ -37,7 +37,7 @@
       const { x, y } = new DOMPoint(left + share * (right - left), (top + bottom) / 2).matrixTransform(matrix);
       svg.dispatchEvent(new PointerEvent(kind, { clientX: x, clientY: y, bubbles: true }));
     };
-    if (!group.querySelector("path.curve,path.truth,path.estimate")) continue;
+    if (!group.querySelector("path.curve,path.truth,path.estimate") && group.querySelectorAll("path.point").length < 2) continue;
     send("pointermove", 0.4);
     const values = (svg.closest("figure") ?? svg.parentElement).querySelectorAll(".values");
     if (![...values].some((one) => /\d.*\|.*\d/.test(one.textContent))) say(`no values under the cursor: ${name}`);

@@ -27,7 +27,11 @@ for (const group of document.querySelectorAll("svg g.plot")) {
     const found = points(path), turns = found.some((point, k) => k > 0 && !point[2] && point[0] < found[k - 1][0]);
     return { name: named(wanted.filter((one) => one !== "curve")) ?? "", points: found, turns };
   });
-  if (!curves.some((curve) => curve.points.length > 1)) continue;
+  // single points, each with its name
+  const marks = [...group.querySelectorAll("path.point")].map((path) => ({
+    at: path.getAttribute("transform").match(/-?[\d.]+/g).map(Number), name: path.textContent,
+  }));
+  if (!curves.some((curve) => curve.points.length > 1) && marks.length < 2) continue;
 
   const at = (event) => {
     const place = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
@@ -106,6 +110,11 @@ for (const group of document.querySelectorAll("svg g.plot")) {
       });
       if (best) found.push(`${name ? name + ": " : ""}${turns ? number(x.value(best[0])) + ", " : ""}${number(y.value(best[1]))}`);
     }
+    const far = (mark) => Math.hypot(mark.at[0] - px, mark.at[1] - py);
+    const nearest = marks.reduce((best, mark) => !best || far(mark) < far(best) ? mark : best, null);
+    if (nearest && (!curves.length || far(nearest) < 12)) {
+      found.unshift(`${nearest.name}: ${number(x.value(nearest.at[0]))}, ${number(y.value(nearest.at[1]))}`);
+    }
     values.textContent = `${number(x.value(px))} | ${found.join(" | ")}`;
   };
   let from = null;
@@ -130,7 +139,8 @@ for (const group of document.querySelectorAll("svg g.plot")) {
     if (!begun || Math.abs(to[0] - begun[0]) < 8) return;
     const [low, high] = [back(begun)[0], back(to)[0]].sort((a, b) => a - b), scale = (right - left) / (high - low);
     // the values in this part fill the plot
-    const seen = curves.flatMap((curve) => curve.points.filter((point) => point[0] >= low && point[0] <= high).map((point) => point[1]));
+    const all = [...curves.flatMap((curve) => curve.points), ...marks.map((mark) => mark.at)];
+    const seen = all.filter((point) => point[0] >= low && point[0] <= high).map((point) => point[1]);
     const [least, most] = [Math.min(...seen), Math.max(...seen)];
     let [rise, middle] = [0.9 * (bottom - top) / Math.max(most - least, 0.2), (least + most) / 2];
     // a plane keeps its circles round
