@@ -30,6 +30,17 @@ pub fn page(name: &str, machine: &str, facts: Vec<Fact>, replayed: &Replayed) ->
             ..Figure::default()
         }
     };
+    // a twist whose zero is not known is drawn about the estimate's mean
+    let mean = |values: &[f64]| values[shown.clone()].iter().sum::<f64>() / shown.len().max(1) as f64;
+    let torque: Option<Vec<f64>> = signals.shaft_torque.as_ref().map(|torque| {
+        let shift = if signals.floating { mean(&course.shaft_torque) - mean(torque) } else { 0.0 };
+        torque.iter().map(|value| value + shift).collect()
+    });
+    let mut shaft = figure("Shaft torque", "shaft torque, N m", &course.shaft_torque, torque.as_ref());
+    if signals.floating {
+        shaft.text =
+            "Measured by the twist of two encoders, whose zeros are not known: both about one mean.".to_owned();
+    }
     let faulty = |index: usize| !course.faults[index].is_none();
     let marks: Vec<f64> = shown.clone().filter(|index| faulty(*index)).map(|index| signals.time[index]).collect();
     let mut innovation = figure("Innovation", "innovation, rad", &course.innovation, None);
@@ -44,7 +55,7 @@ pub fn page(name: &str, machine: &str, facts: Vec<Fact>, replayed: &Replayed) ->
         figures: vec![
             figure("Motor speed", "motor speed, rad/s", &course.motor_speed, signals.motor_speed.as_ref()),
             figure("Load speed", "load speed, rad/s", &course.load_speed, signals.load_speed.as_ref()),
-            figure("Shaft torque", "shaft torque, N m", &course.shaft_torque, signals.shaft_torque.as_ref()),
+            shaft,
             figure("Load torque", "load torque, N m", &course.load_torque, signals.load_torque.as_ref()),
             innovation,
         ],
