@@ -5,7 +5,7 @@ use std::io::ErrorKind;
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 
-use clap::{Parser, Subcommand};
+use clap::{Arg, ColorChoice, Parser, Subcommand, ValueEnum, value_parser};
 use driveline_qemu::children::end_with_signals;
 
 use super::output::UNSAID;
@@ -94,6 +94,8 @@ impl Command {
 
 /// A program's arguments.
 pub trait CommandLine: Parser {
+    /// What its commands are for, and their names: the help lists them so. Without any it lists them in one.
+    const GROUPS: &[(&str, &[&str])] = &[];
     /// The chosen command prints JSON.
     fn json(&self) -> bool;
     /// Runs the chosen command.
@@ -101,6 +103,18 @@ pub trait CommandLine: Parser {
 }
 
 impl CommandLine for Cli {
+    const GROUPS: &[(&str, &[&str])] = &[
+        ("A machine in a file", &["modes", "design", "simulate", "campaign"]),
+        ("A recording of a machine", &["identify", "replay"]),
+        ("A rotor", &["rotor", "balancing"]),
+        ("A file to begin with", &["example"]),
+        ("Firmware of your own", &["new", "export"]),
+        ("A machine from another tool", &["cosim"]),
+        ("A running drive", &["watch"]),
+        ("The design in a browser", &["page"]),
+        ("Missing tools, completions, manual page", &["setup", "shell"]),
+    ];
+
     fn json(&self) -> bool {
         self.command.json()
     }
@@ -123,9 +137,40 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 /// The arguments of a command line, the program's name first.
 fn parsed<C: CommandLine>(arguments: &[OsString]) -> Result<C, clap::Error> {
     // `--seed -1` is a wrong value, not an option that nobody knows
-    let mut grammar = C::command().mut_subcommands(|command| command.allow_negative_numbers(true));
+    let grammar = C::command().mut_subcommands(|command| command.allow_negative_numbers(true));
+    let color =
+        Arg::new("color").long("color").global(true).value_name("WHEN").value_parser(value_parser!(ColorChoice));
+    let color =
+        color.help("Color labels of errors and the help: where it is a terminal, or as named").hide_default_value(true);
+    let mut grammar = grouped(grammar, C::GROUPS).arg(color.default_value("auto")).color(color_choice(arguments));
     let matches = grammar.try_get_matches_from_mut(arguments)?;
     C::from_arg_matches(&matches).map_err(|error| error.format(&mut grammar))
+}
+
+/// What `--color` says, also of a line that cannot be parsed.
+fn color_choice(arguments: &[OsString]) -> ColorChoice {
+    let words = || arguments.iter().filter_map(|argument| argument.to_str());
+    let next = words().skip_while(|word| *word != "--color").nth(1);
+    let said = words().find_map(|word| word.strip_prefix("--color=")).or(next);
+    said.and_then(|word| ColorChoice::from_str(word, true).ok()).unwrap_or(ColorChoice::Auto)
+}
+
+/// The commands listed by what they are for.
+fn grouped(grammar: clap::Command, groups: &[(&str, &[&str])]) -> clap::Command {
+    if groups.is_empty() {
+        return grammar;
+    }
+    let mut listed = String::new();
+    for (title, names) in groups {
+        listed.push_str(&format!("{title}:\n"));
+        for name in *names {
+            let about = grammar.find_subcommand(name).and_then(clap::Command::get_about).map(ToString::to_string);
+            listed.push_str(&format!("  {name:<11}{}\n", about.unwrap_or_default()));
+        }
+        listed.push('\n');
+    }
+    let template = "{about-with-newline}\n{usage-heading} {usage}\n\n{before-help}Options:\n{options}";
+    grammar.before_help(listed.trim_end().to_owned()).help_template(template)
 }
 
 /// Runs a command of `cargo driveline` inside another program: what it writes to standard output, and how it ended.
@@ -141,13 +186,17 @@ pub fn answer(arguments: &[OsString]) -> (String, Result<(), Failure>) {
 
 /// Runs a command line, the program's name first, and says how it ended.
 pub fn run<C: CommandLine>(arguments: &[OsString]) -> ExitCode {
+    failure::color(match color_choice(arguments) {
+        ColorChoice::Auto => None,
+        choice => Some(choice == ColorChoice::Always),
+    });
     let cli = match parsed::<C>(arguments) {
         Ok(cli) => cli,
         Err(error) if error.use_stderr() && arguments.iter().any(|argument| argument == "--json") => {
             return Failure::usage(sentence(&error.to_string())).report(true);
         }
         Err(error) if error.use_stderr() => {
-            eprintln!("{}", failure::visible(&error.render().to_string()));
+            eprintln!("{}", failure::labelled(&failure::visible(&error.render().to_string())));
             return ExitCode::from(2);
         }
         // Help and version are no errors, unless they cannot be written; a reader that has gone away is none.

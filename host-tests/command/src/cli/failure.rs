@@ -1,6 +1,8 @@
 //! Failures of a command, and their output.
 
+use std::io::IsTerminal;
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde_json::json;
 
@@ -41,6 +43,7 @@ impl Failure {
 
     /// Prints it on standard error, as a sentence or as JSON, and returns the exit code.
     pub fn report(&self, as_json: bool) -> ExitCode {
+        let say = |sentence: &str| eprintln!("{}", labelled(&format!("error: {sentence}")));
         match self {
             _ if as_json => {
                 let mut value = json!({ "error": self.to_string() });
@@ -49,11 +52,29 @@ impl Failure {
                 }
                 eprintln!("{value}");
             }
-            Self::Machine(diagnostic) => eprintln!("error: {}", visible(&diagnostic.explained())),
-            Self::Usage(sentence) => eprintln!("error: {}; see `--help`", visible(sentence)),
-            Self::Failed(sentence) => eprintln!("error: {}", visible(sentence)),
+            Self::Machine(diagnostic) => say(&visible(&diagnostic.explained())),
+            Self::Usage(sentence) => say(&format!("{}; see `--help`", visible(sentence))),
+            Self::Failed(sentence) => say(&visible(sentence)),
         }
         ExitCode::from(self.code())
+    }
+}
+
+/// Whether labels of errors are colored.
+static COLORED: AtomicBool = AtomicBool::new(false);
+
+/// Colors the labels of errors, or not; by default on a terminal that has not been told otherwise.
+pub(super) fn color(wanted: Option<bool>) {
+    let is_refused = || std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+    let on_terminal = || std::io::stderr().is_terminal() && !is_refused();
+    COLORED.store(wanted.unwrap_or_else(on_terminal), Ordering::Relaxed);
+}
+
+/// A message with its label in red where it is colored.
+pub(super) fn labelled(text: &str) -> String {
+    match text.strip_prefix("error:") {
+        Some(rest) if COLORED.load(Ordering::Relaxed) => format!("\x1b[1;31merror:\x1b[0m{rest}"),
+        _ => text.to_owned(),
     }
 }
 

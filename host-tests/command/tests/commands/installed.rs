@@ -10,35 +10,52 @@ fn err(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }
 
-/// Those for who designs a machine, and none of the laboratory's.
+/// Those for who designs a machine, and none of the laboratory's: in the groups of the book's page, each with what it
+/// does.
 #[test]
 fn the_installed_commands_are_the_designers() {
     let output = Command::new(env!("CARGO_BIN_EXE_cargo-driveline")).args(["driveline", "--help"]).output().unwrap();
     let help = out(&output);
-    let (_, listed) = help.split_once("Commands:\n").unwrap();
-    let listed = listed.split("\n\n").next().unwrap();
-    let names = listed.lines().filter(|line| line.starts_with("  ") && !line.starts_with("   "));
-    let names: Vec<&str> = names.filter_map(|line| line.split_whitespace().next()).collect();
-    let expected = [
-        "campaign",
-        "modes",
-        "design",
-        "example",
-        "export",
-        "new",
-        "page",
-        "rotor",
-        "balancing",
-        "identify",
-        "cosim",
-        "replay",
-        "setup",
-        "shell",
-        "simulate",
-        "watch",
-        "help",
-    ];
-    assert_eq!(names, expected, "{help}");
+    let (_, page) =
+        include_str!("../../../../doc/commands.md").split_once("| for | `cargo driveline` |\n|---|---|\n").unwrap();
+    let mut names = 0;
+    for row in page.lines().take_while(|line| line.starts_with('|')) {
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        // the runner of new projects is not listed
+        let wanted: Vec<&str> =
+            cells[2].split(", ").map(|name| name.trim_matches('`')).filter(|name| *name != "qemu").collect();
+        let (_, group) = help
+            .to_lowercase()
+            .split_once(&format!("\n{}:\n", cells[1]))
+            .map(|(a, b)| (a.to_owned(), b.to_owned()))
+            .unwrap_or_else(|| panic!("{}: {help}", cells[1]));
+        let lines: Vec<&str> = group.split("\n\n").next().unwrap().lines().collect();
+        let listed: Vec<&str> = lines.iter().filter_map(|line| line.split_whitespace().next()).collect();
+        assert_eq!(listed, wanted, "{help}");
+        assert!(lines.iter().all(|line| line.split_whitespace().count() > 3), "{help}");
+        names += listed.len();
+    }
+    let man = Command::new(env!("CARGO_BIN_EXE_cargo-driveline")).args(["driveline", "shell", "man"]).output().unwrap();
+    // the manual page lists them all, and `help`
+    assert_eq!(out(&man).matches(".TP\ncargo\\-driveline\\-").count(), names + 1, "{}", out(&man));
+}
+
+/// The label of an error is red where that is asked for, and plain in a pipe.
+#[test]
+fn an_error_is_coloured_as_asked() {
+    for (options, is_red) in [(&["--color", "always"][..], true), (&["--color=never"], false), (&[], false)] {
+        for arguments in [&["modes", "none.toml"][..], &["modes", "--no-such-option"]] {
+            let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+            let said = err(&command.arg("driveline").args(arguments).args(options).output().unwrap());
+            assert_eq!(said.starts_with("\x1b[1;31merror:\x1b[0m "), is_red, "{options:?}: {said:?}");
+            assert!(is_red || said.starts_with("error: "), "{said:?}");
+        }
+    }
+    let wrong = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"))
+        .args(["driveline", "modes", "--color", "red"])
+        .output()
+        .unwrap();
+    assert_eq!(wrong.status.code(), Some(2));
 }
 
 /// Completions and manual page name every command and the options of one; JSON has the version of its keys.
