@@ -56,9 +56,7 @@ impl Drive {
         let designs = Designs::of(&machine, &two).map_err(refused)?;
         let names = FileObserver::ALL.map(FileObserver::name).join(", ");
         let chosen = match observer {
-            None => FileObserver::selected(&designs).map_err(|name| {
-                refused(format!("there is no drive with the selected observer `{name}`: name {names}"))
-            })?,
+            None => FileObserver::selected(&designs),
             Some(name) => FileObserver::ALL
                 .into_iter()
                 .find(|one| one.name() == name)

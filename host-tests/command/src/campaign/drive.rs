@@ -37,7 +37,7 @@ impl Drive {
                 Some(observer) => Ok(Self::File(observer, rate)),
                 None if name == PLAIN => Ok(Self::Plain(rate)),
                 None => Err(format!(
-                    "there is no drive `{name}` for a machine file; expected two-mass, semi-implicit, rigid or plain"
+                    "there is no drive `{name}` for a machine file; expected two-mass, semi-implicit, rigid, backlash or plain"
                 )),
             };
         }
@@ -68,8 +68,8 @@ impl Drive {
     pub fn lacks(&self, scene: &CampaignScene) -> Option<String> {
         let designs = &scene.file()?.designs;
         let lack = match self {
-            Self::File(FileObserver::TwoMass | FileObserver::SemiImplicit, _) => designs.two_masses_lack,
             Self::File(FileObserver::Rigid, _) => designs.rigid_lacks,
+            Self::File(..) => designs.two_masses_lack,
             Self::Variant(_) | Self::Plain(_) => None,
         };
         lack.map(|lack| lack.to_string())

@@ -1,15 +1,17 @@
 //! The drive of a machine file, composed at run time as a project of `cargo driveline new` is by the compiler: the same
 //! parts and constants, so the same bits.
 
-use driveline::design::ObserverChoice;
+use std::error::Error;
+
+use driveline::design::{BacklashTuning, ObserverChoice};
 use driveline::drive::{Composition, Config, ConfigOf, Drive, Limits};
 use driveline::governor::{SpeedLoop, SpeedLoopConfig};
 use driveline::number::Fixed;
 use driveline::observer::{
-    GearedConfig, GearedObserver, LoadGearConfig, LoadGearObserver, RigidConfig, RigidObserver, SemiImplicitConfig,
-    SemiImplicitObserver, TwoMassConfig, TwoMassObserver,
+    BacklashConfig, BacklashObserver, GearedConfig, GearedObserver, LoadGearConfig, LoadGearObserver, RigidConfig,
+    RigidObserver, SemiImplicitConfig, SemiImplicitObserver, TwoMassConfig, TwoMassObserver,
 };
-use driveline::settings::{Bases, Error, Gear, LoadGear, SpeedLoopSettings};
+use driveline::settings::{Bases, Gear, LoadGear, SpeedLoopSettings};
 use driveline_firmware::Words;
 use driveline_firmware::scene::composed::OverWords;
 use driveline_firmware::scene::{Input, Output, Scene};
@@ -26,24 +28,23 @@ pub enum FileObserver {
     SemiImplicit,
     /// One mass.
     Rigid,
+    /// Two masses with the gap between them.
+    Backlash,
 }
 
 impl FileObserver {
     /// That of a project of `cargo driveline new`.
-    ///
-    /// # Errors
-    /// The name of an observer that this drive has not: that of the gap.
-    pub const fn selected(designs: &Designs) -> Result<Self, &'static str> {
+    pub const fn selected(designs: &Designs) -> Self {
         match designs.selected.chosen {
-            ObserverChoice::Rigid => Ok(Self::Rigid),
-            ObserverChoice::SemiImplicit => Ok(Self::SemiImplicit),
-            ObserverChoice::Exact => Ok(Self::TwoMass),
-            ObserverChoice::Backlash => Err("backlash"),
+            ObserverChoice::Rigid => Self::Rigid,
+            ObserverChoice::SemiImplicit => Self::SemiImplicit,
+            ObserverChoice::Exact => Self::TwoMass,
+            ObserverChoice::Backlash => Self::Backlash,
         }
     }
 
     /// All.
-    pub const ALL: [Self; 3] = [Self::TwoMass, Self::SemiImplicit, Self::Rigid];
+    pub const ALL: [Self; 4] = [Self::TwoMass, Self::SemiImplicit, Self::Rigid, Self::Backlash];
 
     /// Its name on the command line.
     pub const fn name(self) -> &'static str {
@@ -51,6 +52,7 @@ impl FileObserver {
             Self::TwoMass => "two-mass",
             Self::SemiImplicit => "semi-implicit",
             Self::Rigid => "rigid",
+            Self::Backlash => "backlash",
         }
     }
 }
@@ -58,7 +60,7 @@ impl FileObserver {
 /// The drive of a machine with its dampers, at rest, and the bases of its number.
 ///
 /// # Errors
-/// A sentence: constants that the number does not hold.
+/// A sentence: constants that the number does not hold, no gap for its observer.
 pub fn start(
     machine: &MachineFile,
     designs: &Designs,
@@ -116,9 +118,9 @@ macro_rules! driven {
 
 macro_rules! number {
     ($name:ident, $number:ty) => {
-        fn $name(&self) -> Result<Box<dyn Scene>, Error> {
+        fn $name(&self) -> Result<Box<dyn Scene>, Box<dyn Error>> {
             let (Designs { two, two_masses, rigid, speed_loop, ramp, .. }, bases) = (self.designs, self.bases);
-            let (rate, encoder, _) = self.machine.tuning();
+            let (rate, encoder, disturbance) = self.machine.tuning();
             let rating = self.machine.rating();
             // in the words of a project, whose sum may differ in the last digit
             let is_chain = self.machine.dampers.is_empty() && self.machine.train.is_none();
@@ -139,6 +141,11 @@ macro_rules! number {
                 FileObserver::Rigid => {
                     let share = two.load_inertia / two.total_inertia();
                     driven!(self, of, $number, RigidObserver, RigidConfig::<$number>::try_new(rigid, share, bases))
+                }
+                FileObserver::Backlash => {
+                    let design = two.try_backlash_observer(rate, encoder, disturbance, BacklashTuning::USUAL)?;
+                    let config = BacklashConfig::<$number>::try_new(&design, bases);
+                    driven!(self, of, $number, BacklashObserver, config)
                 }
             })
         }

@@ -145,7 +145,9 @@ fn a_machine_file_has_campaigns() {
         "{sentence}"
     );
     let refused = campaign(folder.path(), &["axis.toml", "--drive", "f32/rigid/10000"]);
-    assert!(String::from_utf8_lossy(&refused.stderr).contains("expected two-mass, semi-implicit, rigid or plain"));
+    assert!(
+        String::from_utf8_lossy(&refused.stderr).contains("expected two-mass, semi-implicit, rigid, backlash or plain")
+    );
 }
 
 #[test]
