@@ -14,6 +14,8 @@ import shutil
 import tempfile
 import warnings
 import weakref
+from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -53,7 +55,8 @@ def _run(name: str, *files: str | os.PathLike[str], **options: Any) -> Result:
         if not text:
             raise Refused(failure)
         warnings.warn(failure, stacklevel=3)
-    return _arrays(json.loads(text))
+    result: Result = _arrays(json.loads(text))
+    return result
 
 
 def _table(path: str) -> dict[str, NDArray[np.float64]]:
@@ -119,7 +122,7 @@ class Machine:
     def campaign(self, draws: int = 200, seed: int = 1, **options: Any) -> Result:
         """The drive in closed loop with machines drawn from within the tolerances.
 
-        Further options: ``drive`` (``two-mass``, ``semi-implicit``, ``rigid``, ``plain``), ``tolerance``
+        Further options: ``drive`` (``two-mass``, ``semi-implicit``, ``rigid``, ``backlash``, ``plain``), ``tolerance``
         (``NAME=LOW..HIGH``), ``threads``.
         """
         with tempfile.TemporaryDirectory() as folder:
@@ -129,12 +132,12 @@ class Machine:
     def drive(self, number: str = "f32", observer: str | None = None) -> Drive:
         """The drive in ``f32`` or ``fixed``, with the bits of a firmware that ``cargo driveline new`` writes.
 
-        ``observer``: ``two-mass``, ``semi-implicit`` or ``rigid``; the selected one where it is left out.
+        ``observer``: ``two-mass``, ``semi-implicit``, ``rigid`` or ``backlash``; the selected one where it is left out.
         """
         return Drive(_native_of(_native.Drive.of_file, self.file, number, observer))
 
 
-def _native_of(make: Any, *arguments: Any) -> _native.Drive:
+def _native_of(make: Callable[..., _native.Drive], *arguments: Any) -> _native.Drive:
     try:
         return make(*arguments)
     except ValueError as error:
@@ -149,12 +152,10 @@ class Design(dict[str, Any]):
 
         The loop is L of 1 + L: its margins are those of ``speed_loop``.
         """
-        import control
-
         responses = self._responses()
         one = responses[machine]
         hertz, first = np.unique(responses["hz"], return_index=True)
-        return control.frd((one["real"] + 1j * one["imaginary"])[first], 2 * np.pi * hertz)
+        return import_module("control").frd((one["real"] + 1j * one["imaginary"])[first], 2 * np.pi * hertz)
 
     def plot(self) -> Any:
         """Bode plot of the loop with its band over the tolerances; the figure of matplotlib."""
@@ -162,10 +163,12 @@ class Design(dict[str, Any]):
 
         responses = self._responses()
         figure, axes = pyplot.subplots(2, 1, sharex=True)
-        least, most = responses["open_within"]["least"], responses["open_within"]["most"]
-        for axis, part, of in [(axes[0], "gain", lambda x: 20 * np.log10(x)), (axes[1], "phase", lambda x: x)]:
-            axis.semilogx(responses["hz"], of(responses["nominal"]["open"][part]))
-            axis.fill_between(responses["hz"], of(least[part]), of(most[part]), alpha=0.3)
+        nominal, within = responses["nominal"]["open"], responses["open_within"]
+        for axis, part in zip(axes, ["gain", "phase"]):
+            shown = [curve[part] for curve in (nominal, within["least"], within["most"])]
+            middle, least, most = (20 * np.log10(curve) if part == "gain" else curve for curve in shown)
+            axis.semilogx(responses["hz"], middle)
+            axis.fill_between(responses["hz"], least, most, alpha=0.3)
             axis.grid(True)
         axes[0].set_ylabel("gain, dB")
         axes[1].set_ylabel("phase, degrees")

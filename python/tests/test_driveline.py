@@ -52,6 +52,21 @@ class Commands(unittest.TestCase):
             self.assertLess(abs(np.radians(phase) / loop["phase"] - 1), 0.01, name)
             self.assertLess(abs(modulus / loop["modulus"] - 1), 0.01, name)
 
+    def test_the_plot_has_loop_and_band(self):
+        try:
+            import matplotlib
+        except ImportError:
+            self.skipTest("matplotlib is not installed")
+        matplotlib.use("Agg")
+        design = driveline.Machine.example("roll").design()
+        gain, phase = design.plot().axes
+        drawn = gain.lines[0].get_ydata()
+        np.testing.assert_allclose(drawn, 20 * np.log10(design["responses"]["nominal"]["open"]["gain"]))
+        # two masses are the whole machine here, so the band holds it
+        band = gain.collections[0].get_paths()[0].vertices[:, 1]
+        self.assertTrue(band.min() <= drawn.min() and drawn.max() <= band.max())
+        self.assertEqual(len(phase.collections), 1)
+
 
 class Drives(unittest.TestCase):
     def test_both_numbers_follow_a_rigid_motion(self):
@@ -66,6 +81,17 @@ class Drives(unittest.TestCase):
             # the efficiency of the roll's gear, 97 %, is a torque of the load
             self.assertLess(abs(course["motor_speed"][-1] / speed - 1), 2e-3)
             self.assertEqual(course["faults"][-1], 0)
+
+    def test_every_chain_has_its_drive(self):
+        # machines without a weight: at rest nothing is felt
+        for name in ["roll", "axis", "mill", "conveyor"]:
+            for observer in [None, "two-mass"]:
+                course = driveline.Machine.example(name).drive("fixed", observer).run(np.zeros(200), 0.0, 0.0)
+                self.assertEqual(course["faults"][-1], 0, name)
+        mill = driveline.Machine.example("mill")
+        self.assertEqual(mill.drive().name, mill.design()["predicted"]["observer"])
+        with self.assertRaisesRegex(driveline.Refused, "backlash"):
+            driveline.Machine.example("roll").drive(observer="backlash")
 
     def test_ticks_one_by_one_are_those_of_one_call(self):
         roll = driveline.Machine.example("roll")

@@ -23,7 +23,7 @@ fn environment(place: &Path) -> Option<PathBuf> {
     let mut made = Command::new("python3");
     made.args(["-m", "venv"]).arg(place.join("environment"));
     let mut filled = Command::new(&python);
-    filled.args(["-m", "pip", "install", "--quiet", "numpy", "maturin", "control"]);
+    filled.args(["-m", "pip", "install", "--quiet", "numpy", "maturin", "control", "matplotlib", "mypy"]);
     let steps = [("python3 has no venv", made), ("the packages of PyPI are not there", filled)];
     for (what, mut command) in steps.into_iter().skip(usize::from(python.is_file())) {
         let ended = command.env("PIP_DISABLE_PIP_VERSION_CHECK", "1").output().ok()?;
@@ -52,6 +52,8 @@ fn the_wheel_is_built_installed_and_has_the_bits_of_the_firmware() {
     // as a user installs it, but of the profile of the tests: what both need is compiled once
     let install = ["-m", "pip", "install", "--quiet", "--no-build-isolation", "--no-deps", "--force-reinstall"];
     in_root(&[&install[..], &["--config-settings=build-args=--profile dev --locked", "./python"]].concat());
+    // as the wheel says that it is typed
+    in_root(&["-m", "mypy", "--strict", "--ignore-missing-imports", "--cache-dir=/dev/null", "python/driveline"]);
     let said = in_root(&["-m", "unittest", "discover", "-s", "python/tests"]);
     said.lines().filter(|line| line.contains("measured")).for_each(|line| println!("{line}"));
 
