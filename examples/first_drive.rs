@@ -3,16 +3,11 @@
 use driveline::configure::Units;
 use driveline::prelude::*;
 
-/// Motor, coupling, gear and roll; every part on its own shaft.
+/// Motor, coupling and roll.
 struct Roll;
 
 impl Machine for Roll {
-    const CHAIN: Chain = Chain::motor(Inertia(0.35))
-        .shaft(Stiffness(2.0e4), Damping(0.5))
-        .rotor(Inertia(0.05))
-        .gear(Ratio(5.0), Efficiency(0.97))
-        .shaft(Stiffness(9.0e4), Damping(10.0))
-        .rotor(Inertia(12.0));
+    const CHAIN: Chain = Chain::motor(Inertia(0.35)).shaft(Stiffness(2.0e4), Damping(0.5)).rotor(Inertia(0.48));
     const RATING: Rating = Rating { torque: Torque(300.0), speed: Speed(150.0), torque_limit: Torque(550.0) };
     const ENCODER: Encoder = Encoder::lines(2048);
     const RATE_HZ: u32 = 10_000;
@@ -22,28 +17,24 @@ type RollDrive<N> = Drive<N, TwoMassObserver, SpeedLoop>;
 static SINGLE: ConfigOf<RollDrive<f32>> = RollDrive::<f32>::configure::<Roll>();
 static FIXED: ConfigOf<RollDrive<Fixed>> = RollDrive::<Fixed>::configure::<Roll>();
 
-/// Motor, coupling and roll as three masses on the motor's shaft: nothing of the library's, and no loss in the gear.
+/// Motor and roll as two masses and a spring: nothing of the library's.
 #[derive(Default)]
 struct Plant {
-    angle: [f64; 3],
-    speed: [f64; 3],
-    shaft: [f64; 2],
+    angle: [f64; 2],
+    speed: [f64; 2],
+    shaft: f64,
 }
 
 impl Plant {
-    const INERTIA: [f64; 3] = [0.35, 0.05, 12.0 / 25.0];
-    const STIFFNESS: [f64; 2] = [2.0e4, 9.0e4 / 25.0];
-    const DAMPING: [f64; 2] = [0.5, 10.0 / 25.0];
+    const INERTIA: [f64; 2] = [0.35, 0.48];
 
     /// A tick of the drive, in 20 steps.
     fn advance(&mut self, torque: f64, load: f64) {
         const STEP: f64 = 5e-6;
         for _ in 0..20 {
-            let ([a, b, c], [u, v, w]) = (self.angle, self.speed);
-            let shaft = |j: usize, twist, rate| Self::STIFFNESS[j] * twist + Self::DAMPING[j] * rate;
-            self.shaft = [shaft(0, a - b, u - v), shaft(1, b - c, v - w)];
-            let [first, second] = self.shaft;
-            for (j, sum) in [torque - first, first - second, second - load].into_iter().enumerate() {
+            let ([a, b], [u, v]) = (self.angle, self.speed);
+            self.shaft = 2.0e4 * (a - b) + 0.5 * (u - v);
+            for (j, sum) in [torque - self.shaft, self.shaft - load].into_iter().enumerate() {
                 self.speed[j] += STEP * sum / Self::INERTIA[j];
                 self.angle[j] += STEP * self.speed[j];
             }
@@ -69,7 +60,7 @@ fn run<N: Units>(config: &ConfigOf<RollDrive<N>>) -> Vec<[f64; 5]> {
         assert!(command.faults.is_none(), "{} in tick {tick}", command.faults);
         torque = command.torque_si::<Roll>();
         let estimate = drive.estimate(config).si::<Roll>();
-        let ([_, _, speed], [_, shaft]) = (plant.speed, plant.shaft);
+        let ([_, speed], shaft) = (plant.speed, plant.shaft);
         rows.push([1e-4 * f64::from(tick), speed, estimate.load_speed.into(), shaft, estimate.shaft_torque.into()]);
     }
     rows
