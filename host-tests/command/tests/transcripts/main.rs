@@ -7,8 +7,9 @@
 //! - A listing whose fence ends in `,file=PATH` is that file from there on. One in `,edit=PATH` has lines of it that
 //!   replace those of the same key.
 //! - A block in `console,needs=TOOL` is run where that tool is on the path.
+//! - `<!-- drawn: PAGE N PICTURE -->` is a picture of the book: the N-th plot of a page that a command has written.
 //!
-//! With `DRIVELINE_WRITE` set a page gets what is printed.
+//! With `DRIVELINE_WRITE` set a page gets what is printed, and its pictures what is drawn.
 
 mod json;
 mod troubleshooting;
@@ -26,6 +27,44 @@ struct Block {
     info: String,
     text: String,
     at: std::ops::Range<usize>,
+}
+
+/// Begin of the line above a picture.
+const DRAWN: &str = "<!-- drawn: ";
+
+/// The N-th plot of a page as a file: with the colours and type that it has on the page.
+fn picture(page: &str, number: usize) -> Option<String> {
+    let (_, style) = page.split_once("<style>")?;
+    let mut plots = page.split("<svg ").filter(|part| part.contains(r#" role="img""#));
+    let (svg, _) = plots.nth(number.checked_sub(1)?)?.split_once("</svg>")?;
+    let is_class = |word: &str| word.len() > 1 && svg.contains(word);
+    let is_used = |line: &&str| {
+        [":root", "--", "@media (prefers", "svg "].iter().any(|begin| line.starts_with(begin))
+            || line.starts_with('.') && line.split(|c: char| !c.is_alphanumeric()).any(is_class)
+    };
+    let used: Vec<&str> = style.split_once("</style>")?.0.lines().filter(is_used).collect();
+    let (root, body) = svg.split_once('>')?;
+    Some(format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" style=\"background:var(--sheet);font-family:sans-serif\" {root}>\
+         <style>{}</style>{body}</svg>\n",
+        used.join("\n")
+    ))
+}
+
+/// Draws a picture anew and compares, or writes, it.
+fn drawn(line: &str, folder: &Path) -> Result<(), String> {
+    let words: Vec<&str> = line[DRAWN.len()..].split_whitespace().collect();
+    let &[page, number, name, "-->"] = &words[..] else { return Err("expected PAGE N PICTURE".to_owned()) };
+    let text = fs::read_to_string(folder.join(page)).map_err(|error| format!("{page}: {error}"))?;
+    let new = number.parse().ok().and_then(|number| picture(&text, number)).ok_or("there is no such plot")?;
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../doc/pictures").join(name);
+    if std::env::var_os("DRIVELINE_WRITE").is_some() {
+        return fs::create_dir_all(path.parent().unwrap())
+            .and_then(|()| fs::write(path, new))
+            .map_err(|e| e.to_string());
+    }
+    let is_same = fs::read_to_string(path).is_ok_and(|old| old == new);
+    if is_same { Ok(()) } else { Err(format!("{page} has another plot {number} than {name}")) }
 }
 
 /// A command of a block, and what the page says it prints.
@@ -49,6 +88,9 @@ fn blocks(page: &str) -> Vec<Block> {
                 }
             }
             Event::End(TagEnd::CodeBlock) => all.extend(open.take()),
+            Event::Html(text) if text.starts_with(DRAWN) => {
+                all.push(Block { info: text.trim().to_owned(), text: String::new(), at });
+            }
             _ => {}
         }
     }
@@ -128,7 +170,9 @@ fn follow(page: &str) -> (String, Vec<String>) {
         None => false,
     };
     for block in blocks(page) {
-        if let Some((_, path)) = block.info.split_once(",file=") {
+        if block.info.starts_with(DRAWN) {
+            wrong.extend(drawn(&block.info, folder.path()).err().map(|why| format!("{}: {why}", block.info)));
+        } else if let Some((_, path)) = block.info.split_once(",file=") {
             fs::write(folder.path().join(path), &block.text).unwrap();
         } else if let Some((_, path)) = block.info.split_once(",edit=") {
             edit(&folder.path().join(path), &block.text);
@@ -194,4 +238,36 @@ fn a_page_that_is_wrong_is_found() {
     }
     assert!(follow("```console\n$ exit 2\n? 2\n```\n").1.is_empty());
     assert_eq!(follow("```console\n$ exit 2\n```\n").1.len(), 1);
+    assert_eq!(follow("<!-- drawn: none.html 1 none.svg -->\n![none](pictures/none.svg)\n").1.len(), 1);
+}
+
+/// The plots of a page are counted without the keys of its legends, and keep the style of what they have.
+#[test]
+fn a_picture_is_a_plot_with_its_style() {
+    let page = "<style>\n:root{--a:#000}\nbody{margin:0}\n.grid{stroke:var(--a)}\n.disc{fill:red}\n</style>\
+        <svg aria-hidden=\"true\"><path/></svg><svg viewBox=\"0 0 9 9\" role=\"img\"><path class=\"grid\"/></svg>";
+    let drawn = picture(page, 1).unwrap();
+    assert!(
+        drawn.contains("<style>:root{--a:#000}\n.grid{stroke:var(--a)}</style><path class=\"grid\"/></svg>"),
+        "{drawn}"
+    );
+    assert_eq!(picture(page, 2), None);
+}
+
+/// Every picture of the book is shown where it is drawn.
+#[test]
+fn every_drawn_picture_is_shown() {
+    let mut count = 0;
+    for path in pages() {
+        let page = fs::read_to_string(&path).unwrap();
+        let mut lines = page.lines();
+        while let Some(line) = lines.next() {
+            let Some(name) = line.strip_prefix(DRAWN).and_then(|rest| rest.split_whitespace().nth(2)) else { continue };
+            let shown = lines.next().unwrap_or_default();
+            let is_shown = shown.starts_with("![") && shown.ends_with(&format!("pictures/{name})"));
+            assert!(is_shown, "{}: {line}: {shown}", path.display());
+            count += 1;
+        }
+    }
+    assert!(count >= 20, "{count} pictures");
 }
