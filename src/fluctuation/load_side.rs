@@ -13,7 +13,7 @@
 use core::f64::consts::TAU;
 
 use super::extremes::Fluctuations;
-use super::series::{Circle, MAX_ORDER, Order, FourierSeries, circle};
+use super::series::{Circle, FourierSeries, MAX_ORDER, Order, circle};
 use super::{Bin, CycleConfig, Ripple, Summed, WaveformConfig, Window};
 use crate::number::Real;
 
