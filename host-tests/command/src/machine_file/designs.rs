@@ -427,7 +427,7 @@ impl MachineFile {
         ]
     }
 
-    /// The widest speed loop with all margins over the tolerances; `None` where that of the file lacks some.
+    /// The widest speed loop that lacks nothing; `None` where that of the file lacks something.
     pub fn widest(&self, two: &TwoMass, is_rigid: bool) -> Option<Widest> {
         let mut changed = self.clone();
         let mut lack = |bandwidth: f64| {
