@@ -194,7 +194,7 @@ fn steps_after_events_are_counted() {
         .link(Link::shaft(1, 2, 501_604.102_626_666).rope().varying(zones))
         .link(Link::shaft(2, 3, 240.059_567_323_570_6).damping(2.241_133_409_739_691_6).gap(0.045_434_406_499_292_47))
         .link(
-            Link::geared(3, 4, 0.687_212_243_860_785, 1571.024_072_815_878)
+            Link::geared(3, 4, 0.687_212_243_860_785, 1_571.024_072_815_878)
                 .damping(0.078_076_077_391_755_46)
                 .varying(swings),
         );
