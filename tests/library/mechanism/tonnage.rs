@@ -181,8 +181,9 @@ fn the_force_of_200_presses() {
     presses(40, FINE);
 }
 
-/// A force that exceeds the limit by a fifth stops the press: within the observer's delay, 0.7 ms, and what its noise
-/// adds.
+/// A force that exceeds the limit by a fifth stops the press: within the observer's delay, 0.7 ms, and the time of 3 % of
+/// the rated force, to which it is read. The slowest stroke, of 50 degrees in 87 ms, rises there by 1.2 pi sin(2 x)/87 ms
+/// with sin^2 x = 1/1.2, that is 3.2 % in a millisecond.
 #[test]
 fn an_overload_stops() {
     let mut noise = Noise::new(48);
@@ -190,6 +191,6 @@ fn an_overload_stops() {
         let stops: Vec<_> =
             (0..3).map(|_| stroke(&press(law, FINE, &mut noise), FINE, 1.2, &mut noise).stop.unwrap()).collect();
         println!("{law}: {stops:?}");
-        assert!(stops.iter().all(|stop| stop.abs() < 1.05e-3), "{law}: {stops:?}");
+        assert!(stops.iter().all(|stop| stop.abs() < 1.63e-3), "{law}: {stops:?}");
     }
 }
