@@ -96,7 +96,6 @@ impl<R: Real> Ripple<R> {
         let turning = self.speed.mean * per_angle;
         let shaft_torque = self.reaction(&self.speed, torque, motor, per_angle, &circle);
         let mut twist = FourierSeries::constant(shaft_torque.mean / stiffness);
-
         let (fitted, mut magnified) = (R::count(self.speed.highest() as u32), R::ZERO);
         for ((n, torque), twist) in (1_u32..).zip(&shaft_torque.orders).zip(&mut twist.orders) {
             let n = R::count(n);

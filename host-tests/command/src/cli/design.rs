@@ -60,9 +60,8 @@ impl Answered {
         let page = page(&plan, responses.as_ref());
         let is_stable = plan.speed_loop.as_ref().is_none_or(|governor| governor.no_margins.is_none());
         let rust = is_stable.then(|| emitted(machine, &plan)).transpose()?;
-        let json = with_json
-            .then(|| serde_json::to_string(&Whole { plan: &plan, responses, widest: None, rates: None }))
-            .transpose();
+        let whole = |responses| Whole { plan: &plan, responses, widest: widest(machine, &plan), rates: None };
+        let json = with_json.then(|| serde_json::to_string(&whole(responses))).transpose();
         Ok(Self { json: json.map_err(|error| error.to_string())?, page, rust })
     }
 }
