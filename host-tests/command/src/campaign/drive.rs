@@ -36,9 +36,10 @@ impl Drive {
             return match found {
                 Some(observer) => Ok(Self::File(observer, rate)),
                 None if name == PLAIN => Ok(Self::Plain(rate)),
-                None => Err(format!(
-                    "there is no drive `{name}` for a machine file; expected two-mass, semi-implicit, rigid, backlash or plain"
-                )),
+                None => {
+                    let observers = FileObserver::ALL.map(FileObserver::name).join(", ");
+                    Err(format!("there is no drive `{name}` for a machine file; expected {observers} or {PLAIN}"))
+                }
             };
         }
         let usual = format!("f32/{observer}/{rate}");
