@@ -209,8 +209,8 @@ impl Simulation {
         let mut rows: Vec<Vec<f64>> = start.read_all(&signals).into_iter().map(|value| vec![value]).collect();
         let mut rubbed: Vec<(Rubbed, f64)> = start
             .slides()
-            .map(|(at, _, along)| {
-                let names: Vec<_> = at.into_iter().map(|at| file.coordinates[at].as_str()).collect();
+            .map(|(terms, _, along)| {
+                let names: Vec<_> = terms.iter().map(|term| file.coordinates[term.0].as_str()).collect();
                 (Rubbed { name: names.join(" on "), slid: 0.0, heat: 0.0, power: 0.0 }, along)
             })
             .collect();

@@ -76,13 +76,13 @@ impl Motion {
         self.state.speed.get(coordinate).copied().unwrap_or(f64::NAN)
     }
 
-    /// Of each dry friction its coordinates, its torque while it slides (N m or N), and how far it has come over its
-    /// surface since time zero, with the sign of its first coordinate (rad or m).
-    pub fn slides(&self) -> impl Iterator<Item = (Vec<usize>, f64, f64)> + '_ {
+    /// Of each dry friction its coordinates with their shares, its torque while it slides (N m or N), and how far it has
+    /// come over its surface since time zero, with the sign of its first coordinate (rad or m).
+    pub fn slides(&self) -> impl Iterator<Item = (&[(usize, f64)], f64, f64)> + '_ {
         self.train.frictions.iter().map(|friction| {
             let moved = |&(at, share): &(usize, f64)| share * self.angle(at);
             let along = friction.terms.iter().map(moved).sum::<f64>() - friction.surface * self.now;
-            (friction.terms.iter().map(|term| term.0).collect(), friction.kinetic, along)
+            (&*friction.terms, friction.kinetic, along)
         })
     }
 
