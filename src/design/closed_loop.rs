@@ -169,9 +169,9 @@ impl ClosedLoop {
         let open = OpenLoop::Ratio(CutLoop { numerator, denominator, period: self.period });
         let nyquist = core::f64::consts::PI / self.period;
         let mut found = Margins::NONE;
-        open.sweep(&mut found, torques, 1e-2 * self.slowest, nyquist, 1000);
+        open.sweep(&mut found, torques, 0.0, [1e-2 * self.slowest, nyquist], 1000);
         each!(k, 0..plant.count, {
-            open.sweep_about(&mut found, torques, sqrt(plant.vibration[k].square), nyquist, 200);
+            open.sweep_about(&mut found, torques, sqrt(plant.vibration[k].square), nyquist);
         });
         // By the poles: a frequency response may miss a resonance that is sharp enough.
         (found.gain_up, found.gain_down) = (f64::INFINITY, 0.0);

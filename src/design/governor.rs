@@ -348,12 +348,8 @@ impl GovernorDesign {
         let sum = self.natural.sum();
         let slowest = if sum < 0.0 { 1e-3 } else { 1e-2 } * self.crossover();
         let corner = if sum > 0.0 { 0.1 * self.integral / sum } else { slowest };
-        open.sweep(&mut found, [1.0], if corner < slowest { corner } else { slowest }, nyquist, 300);
-        // Finer about the resonance, where a lightly damped shaft turns the response quickly.
-        let (from, to) = (0.8 * machine.antiresonance(), 1.25 * machine.resonance());
-        if to < nyquist {
-            open.sweep(&mut found, [1.0], from, to, 300);
-        }
+        open.sweep(&mut found, [1.0], 0.0, [if corner < slowest { corner } else { slowest }, nyquist], 300);
+        open.sweep_about(&mut found, [1.0], machine.resonance(), nyquist);
         found
     }
 

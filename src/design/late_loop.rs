@@ -50,6 +50,9 @@ impl Averaging {
     }
 }
 
+/// How close to a resonance the response is looked at, over its frequency: no shaft has so little damping.
+pub(super) const NARROWEST: f64 = 1e-7;
+
 /// The loop cut at the torque, which acts one tick after its sample.
 #[derive(Clone, Copy)]
 pub(super) struct LateLoop {
@@ -207,17 +210,26 @@ impl LateLoop {
                 slowest = if corner < slowest { corner } else { slowest };
             }
         }
-        // Finer about the resonance, where a lightly damped shaft turns the response quickly.
-        let edges = [slowest, 1e-3 * bandwidth, 0.8 * ws, 0.99 * wr, 1.01 * wr, 1.25 * wr, nyquist];
-        let mut turned = 0.0;
-        let mut low = edges[0];
+        // Ever finer towards the resonance, where a lightly damped shaft turns the response within its damping.
+        let (beside, wide) = (NARROWEST * wr, 0.1 * wr);
+        let ranges = [
+            (0.0, 1e-3 * bandwidth),
+            (0.0, 0.8 * ws),
+            (0.0, wr - wide),
+            (wr, wr - beside),
+            (0.0, wr + beside),
+            (wr, wr + wide),
+            (0.0, nyquist),
+        ];
+        let (mut turned, mut low) = (0.0, slowest);
         let mut before = self.returned(low);
-        each!(edge, 1..edges.len(), {
-            let high = if edges[edge] < nyquist { edges[edge] } else { nyquist };
+        each!(k, 0..ranges.len(), {
+            let (about, to) = ranges[k];
+            let high = if to < nyquist { to } else { nyquist };
             if high > low {
-                let factor = exp(ln(high / low) / 80.0);
+                let factor = exp(ln((high - about) / (low - about)) / 80.0);
                 each!(point, 0..80, {
-                    low = if point == 79 { high } else { low * factor };
+                    low = if point == 79 { high } else { about + (low - about) * factor };
                     let after = self.returned(low);
                     let turn = over(after, before);
                     turned += atan2(turn.1, turn.0);

@@ -1,7 +1,7 @@
 //! Stability margins of a sampled loop, from its frequency response.
 
 use super::complex::{Complex, over, scaled};
-use super::late_loop::LateLoop;
+use super::late_loop::{LateLoop, NARROWEST};
 use super::polynomial::Polynomial;
 use crate::math::{atan2, exp, hypot, ln, sin_cos};
 
@@ -100,20 +100,21 @@ impl OpenLoop {
         }
     }
 
-    /// Lowers the margins found to what a range of frequencies (rad/s) shows, with the loop times each of the gains.
+    /// Lowers the margins found to what a range of frequencies (rad/s) shows, with the loop times each of the gains. The
+    /// steps are in proportion to the distance from `about`.
     pub(super) const fn sweep<const N: usize>(
         &self,
         found: &mut Margins,
         gains: [f64; N],
-        from: f64,
-        to: f64,
+        about: f64,
+        [from, to]: [f64; 2],
         points: u32,
     ) {
-        let factor = exp(ln(to / from) / points as f64);
+        let factor = exp(ln((to - about) / (from - about)) / points as f64);
         let mut low = from;
         let mut before = self.response(low);
         each!(point, 0..points, {
-            let high = if point + 1 == points { to } else { low * factor };
+            let high = if point + 1 == points { to } else { about + (low - about) * factor };
             let after = self.response(high);
             each!(k, 0..N, {
                 self.look(found, gains[k], [low, high], [scaled(gains[k], before), scaled(gains[k], after)]);
@@ -123,23 +124,20 @@ impl OpenLoop {
         });
     }
 
-    /// The same about a resonance (rad/s), the finer, the closer to it: a lightly damped shaft turns the
-    /// response quickly.
+    /// The same about a resonance (rad/s), ever finer towards it: a lightly damped shaft turns the response within its
+    /// damping. 25 steps a decade pass such a circle in steps of a twentieth of a radian at most.
     pub(super) const fn sweep_about<const N: usize>(
         &self,
         found: &mut Margins,
         gains: [f64; N],
         resonance: f64,
         nyquist: f64,
-        points: u32,
     ) {
-        let mut width = 0.1;
-        while width > 1e-7 {
-            let (from, to) = ((1.0 - width) * resonance, (1.0 + width) * resonance);
-            if to < nyquist {
-                self.sweep(found, gains, from, to, points);
-            }
-            width *= 0.1;
+        let (beside, wide) = (NARROWEST * resonance, 0.1 * resonance);
+        if resonance + wide < nyquist {
+            self.sweep(found, gains, resonance, [resonance - wide, resonance - beside], 150);
+            self.sweep(found, gains, 0.0, [resonance - beside, resonance + beside], 10);
+            self.sweep(found, gains, resonance, [resonance + beside, resonance + wide], 150);
         }
     }
 

@@ -218,3 +218,41 @@ fn nyquist_agrees_with_the_closed_loop() {
     // The set has both.
     assert!(found.iter().all(|&count| count > 3), "{found:?}");
 }
+
+/// A shaft of hardly any damping meets the governor in a band that is as narrow as its damping, which a walk over the
+/// frequencies steps across. Its damping under a loop torque `-G(s)` at the motor is to the first order
+/// `zeta w + J_l / (2 J_m J) Re G(j w)` at the resonance w, whose sign says whether it grows. Both signs are met by the
+/// delay, on machines whose loop is stable without the shaft.
+#[test]
+fn a_narrow_resonance_is_not_stepped_across() {
+    let mut found = [0, 0];
+    for (stiffness, power, delay) in [5.0e4, 9.0e4, 2.0e5, 4.0e5]
+        .into_iter()
+        .flat_map(|stiffness| (2..8).map(move |power| (stiffness, power)))
+        .flat_map(|(stiffness, power)| (0..12).map(move |step| (stiffness, power, 0.015 + 0.0011 * f64::from(step))))
+    {
+        let (jm, jl, ratio) = (4.4_f64, 8.0, 10.0_f64.powi(-power));
+        let resonance = (stiffness * (jm + jl) / (jm * jl)).sqrt();
+        let damping = 2.0 * ratio * stiffness / resonance;
+        let machine = TwoMass::new(Inertia(jm), Inertia(jl), Stiffness(stiffness), Damping(damping));
+        let actuator = Actuator { delay, lag: 0.02 };
+        let late = delay + 0.02 + 1.5 * PERIOD;
+        let proportional = (jm + jl) / (2.5 * late);
+        let integral = proportional / (2.5 * 2.5 * late);
+        // G = (k_p + k_i/s) e^(-s (delay + 1.5 T))/(1 + s lag)
+        let (size, lag) = (proportional.hypot(integral / resonance), resonance * 0.02);
+        let angle = -(integral / resonance).atan2(proportional) - resonance * (delay + 1.5 * PERIOD) - lag.atan();
+        let most = 0.5 * jl / (jm * (jm + jl)) * size / 1.0_f64.hypot(lag);
+        let sum = ratio * resonance + most * angle.cos();
+        // To the second order the loop moves the resonance by `most` and with it the phase by the loop's delay; 4 % are
+        // the held torque's and the rigid motion's.
+        if sum.abs() < 1.5 * most * (most * late + 0.04) {
+            continue;
+        }
+        let design = machine.try_governor(Rate::every(PERIOD), actuator, 2.5, LoadFeedForward::NONE);
+        assert_eq!(design.is_ok(), sum > 0.0, "{stiffness} {ratio} {delay}: {sum}");
+        found[usize::from(sum > 0.0)] += 1;
+    }
+    println!("{found:?}");
+    assert!(found.iter().all(|count| *count > 40), "{found:?}");
+}
