@@ -14,8 +14,7 @@
 //! | [`InputShaper`] round one of them | a swinging load: the setpoint in parts whose swings cancel |
 //! | [`Supervised`] round any of them | a stop where the machine does not follow its commands |
 //!
-//! [`LoadSharing`] stands behind any of them, where several motors turn one gear. [`ResistorStarter`] and
-//! [`SoftStarter`] start a motor that none of them governs.
+//! [`LoadSharing`] stands behind any of them, where several motors turn one gear.
 
 mod actuator_monitor;
 mod backlash_takeup;
@@ -24,10 +23,8 @@ mod input_shaper;
 mod limit;
 mod load_sharing;
 mod loop_filter;
-mod resistor_starter;
 mod sequencer;
 mod setpoint;
-mod soft_starter;
 mod speed_filter;
 mod speed_governor;
 mod speed_loop;
@@ -47,10 +44,8 @@ pub use limit::{
 };
 pub use load_sharing::{LoadSharing, LoadSharingConfig};
 pub use loop_filter::{DampingLag, LagConfig, LoopFilter, SetpointLag, SpeedLag};
-pub use resistor_starter::{ResistorStarter, ResistorStarterConfig};
 pub use sequencer::{HasRunSequence, RunAction, RunRequest, RunState, Sequence, Sequencer, SequencerConfig, Trip};
 pub use setpoint::{Barred, BarredConfig, Droop, DroopConfig, SetpointShape, SpeedRange};
-pub use soft_starter::{SoftStarter, SoftStarterConfig};
 pub use speed_filter::{CycleAverage, MovingAverage, MovingAverageConfig, SpeedFilter};
 pub use speed_governor::{Gains, SpeedGovernor, SpeedGovernorConfig};
 pub use speed_loop::{SpeedLoop, SpeedLoopConfig};

@@ -68,10 +68,7 @@ pub use linkage::{FourBar, Toggle};
 pub use mechanism::{MECHANISM_POINTS, Mechanism, MechanismPoint};
 pub use modes::{Mode, Modes};
 pub use planetary::{Member, Planetary, PlanetaryGear};
-pub use prime_mover::{
-    Characteristic, Combustion, CombustionType, Induction, Line, Parabola, ResistorStart, Series, Shunt, SoftStart,
-    StartCondition, StartingLaw,
-};
+pub use prime_mover::{Characteristic, Induction, Line, Parabola, Series, StartingLaw};
 pub use quantity::{
     Damping, Density, Diameter, Efficiency, Falls, Gap, Inertia, Length, LinearDamping, Mass, Ratio, ShearModulus,
     Speed, Stiffness, Torque,

@@ -43,16 +43,15 @@ impl<const K: usize> TorqueCurve<K> {
 
     stops! {
         /// The largest torque of a prime mover at these speeds (rad/s), the first of them zero. It is zero where the
-        /// mover brakes; below idle it is an engine's at idle, since the engine is not to stall by its limit.
+        /// mover brakes.
         ///
         /// ```
         /// # use driveline::design::TorqueCurve;
-        /// # use driveline::machine::{Characteristic, Combustion, CombustionType, Speed, Torque};
-        /// const RATED: (Speed, Torque) = (Speed(200.0), Torque(1500.0));
-        /// const ENGINE: Characteristic =
-        ///     Characteristic::Combustion(Combustion::new(CombustionType::Spark, RATED, Speed(70.0), Speed(210.0)));
-        /// const LIMIT: TorqueCurve<5> = TorqueCurve::of(&ENGINE, [0.0, 70.0, 135.0, 200.0, 210.0]);
-        /// assert_eq!(LIMIT.points()[3], [200.0, 1500.0]);
+        /// # use driveline::machine::{Characteristic, Line, Speed, Torque};
+        /// const MOTOR: Characteristic = Characteristic::Line(Line::new((Speed(150.0), Torque(90.0)), Speed(160.0)));
+        /// const LIMIT: TorqueCurve<3> = TorqueCurve::of(&MOTOR, [0.0, 150.0, 160.0]);
+        /// assert_eq!(LIMIT.points()[1][0], 150.0);
+        /// assert!((LIMIT.points()[1][1] - 90.0).abs() < 1e-9);
         /// ```
         pub const fn of(mover: &Characteristic, speeds: [f64; K]) -> Self = try_of
     }
@@ -64,11 +63,7 @@ impl<const K: usize> TorqueCurve<K> {
     pub const fn try_of(mover: &Characteristic, speeds: [f64; K]) -> Result<Self, Error> {
         let mut points = [[0.0; 2]; K];
         each!(k, 0..K, {
-            let speed = match mover {
-                Characteristic::Combustion(engine) if speeds[k] < engine.idle => engine.idle,
-                _ => speeds[k],
-            };
-            let torque = mover.torque(Speed(speed)).0;
+            let torque = mover.torque(Speed(speeds[k])).0;
             points[k] = [speeds[k], if torque < 0.0 { 0.0 } else { torque }];
         });
         Self::try_through(points)

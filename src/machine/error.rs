@@ -74,17 +74,10 @@ sentences! {
     InductionSpeed => "rated speed of the induction motor must lie between zero and its synchronous speed (rad/s)",
     DirectCurrent => "voltage, armature resistance and flux of the direct-current motor must be positive and finite \
         (V, ohm, V s or H)",
-    CombustionEngine => "rated torque and speeds of the combustion engine must be positive and finite, rising from \
-        idle over rated to no load",
     FiringOrder => "firing order must name every cylinder once, counted from 1, and fit into two turns of the \
         crankshaft",
     Indicator => "compression ratio and polytropic exponent must be above 1, charge pressure positive, and peak \
         pressure finite and above that of the compression (Pa, absolute)",
-    ResistorStart => "peak torque of the start must be positive and at most the breakdown torque, of a motor whose own \
-        resistance does not keep it to that, with at least one step",
-    SoftStart => "initial voltage of the start must be above 0 and below 1 of the full one, its rise positive and \
-        finite (s), its torque at most that of standstill and at least the breakdown torque at the initial voltage",
-    StartingTime => "starting time must be positive and finite, the starting torque finite (s, N m)",
 }
 
 impl Error {

@@ -2,22 +2,15 @@
 //! the input shaper round a governor.
 
 use super::constants::constants;
-use super::governor_parts::{LIMIT, RAMP, between, step, ticks};
+use super::governor_parts::{LIMIT, RAMP, between, step};
 use super::{Bases, Error, Format};
 use crate::design::{BarredSpeeds, InputShaperDesign, TorqueCurve};
-use crate::governor::{
-    BarredConfig, CurveConfig, CurvePiece, InputShaperConfig, ResistorStarterConfig, SlewConfig, SoftStarterConfig,
-    SpeedRange,
-};
-use crate::machine::{ResistorStart, SoftStart};
+use crate::governor::{BarredConfig, CurveConfig, CurvePiece, InputShaperConfig, SlewConfig, SpeedRange};
 
 const SLEW: &str =
     "the slew of the torque must be positive and finite, and within a tick at most twice the base of the torque";
 const CURVE: &str = "the torque curve and its slopes must be finite; in fixed point it must lie within twice the \
     bases, and its slopes within 2 bases of the torque per base of the speed";
-const STARTER: &str = "the speeds of a start by resistors must be finite, and within twice the base of the speed";
-const SOFT: &str = "the torque limit of a start by reduced voltage must be below twice the base of the torque, and \
-    the voltage must rise by 1e-6 to 0.1 of the full one in a tick";
 const SHAPER: &str = "the input shaper's slots must be whole ticks within 2 % of the delay, below 2^31 ticks, \
     and its share above 0 and at most 1/2: take fewer slots or raise the rate";
 const BARRED: &str = "the barred ranges must be as many as the governor has and lie within twice the base of the speed";
@@ -67,34 +60,6 @@ constants! {
             pieces[k] = CurvePiece { speed, torque, slope: get!(To::coefficient(slope, CURVE)) };
         });
         Ok(CurveConfig { pieces, min })
-    }
-
-    /// [`Error::Value`] for a time between two resistors (s) below zero or of 2^31 ticks, or a speed beyond twice its
-    /// base.
-    impl[const STEPS: usize] ResistorStarterConfig[, STEPS],
-    new, try_new(start: &ResistorStart<STEPS>, interval: f64, period: f64), |format| {
-        let interval = get!(ticks(interval, period));
-        let mut speeds = start.speeds;
-        each!(k, 0..STEPS, {
-            speeds[k] /= format.bases.speed;
-        });
-        let speeds = get!(To::numbers(speeds, STARTER));
-        Ok(ResistorStarterConfig { speeds, interval })
-    }
-
-    /// [`Error::Value`] for a torque limit beyond twice its base, or a voltage that rises in a tick by less than
-    /// 1e-6 or more than 0.1 of the full one.
-    impl[] SoftStarterConfig[], new, try_new(start: &SoftStart, period: f64), |format| {
-        // in a float a millionth of 1 is rounded by 3 %
-        let step = (1.0 - start.initial) * period / start.rise;
-        let limit = start.peak / format.bases.torque;
-        // in fixed point an observed torque ends a unit in the last place below twice its base
-        let room = 2.0 * format.unit - 1.5;
-        if !(step >= 1e-6 && step <= 0.1 && (format.widened == 1.0 || limit * format.unit < room)) {
-            return Err(Error::Value(SOFT));
-        }
-        let [initial, step, limit] = get!(To::numbers([start.initial, step, limit], SOFT));
-        Ok(SoftStarterConfig { initial, step, limit })
     }
 
     /// [`Error::Value`] for a torque per time (N m/s) that is not positive and finite, or twice the base of the torque

@@ -13,7 +13,7 @@ use driveline::design::{
 };
 use driveline::drive::Limits;
 use driveline::governor::*;
-use driveline::machine::{Damping, Gap, Inertia, ResistorStart, Rigid, SoftStart, Stiffness, TwoMass};
+use driveline::machine::{Damping, Gap, Inertia, Rigid, Stiffness, TwoMass};
 use driveline::number::{Coefficient, Fixed};
 use driveline::observer::{BacklashConfig, RigidConfig, SemiImplicitConfig, TwoMassConfig};
 use driveline::settings::*;
@@ -608,31 +608,6 @@ fn the_constants_of_shapes() {
     for min in [1e-9, f64::NAN, f64::NEG_INFINITY] {
         assert!(CurveConfig::<f64, 3>::try_new(&curve, min, BASES).is_err(), "{min}");
     }
-
-    let resistors = ResistorStart { peak: 0.0, switching: 0.0, resistances: [3.0, 2.0], speeds: [60.0, 110.0] };
-    let si = ResistorStarterConfig::<f64, 2>::try_new(&resistors, 0.5, PERIOD, BASES).unwrap();
-    assert_eq!((si.speeds, si.interval), ([60.0, 110.0], 5_000));
-    let fixed = ResistorStarterConfig::<Fixed, 2>::try_new(&resistors, 0.5, PERIOD, BASES).unwrap();
-    number(fixed.speeds[0], 60.0 / BASES.speed);
-    number(fixed.speeds[1], 110.0 / BASES.speed);
-
-    let soft = SoftStart { peak: 250.0, initial: 0.4, rise: 3.0 };
-    let si = SoftStarterConfig::<f64>::try_new(&soft, PERIOD, BASES).unwrap();
-    double(si.step, 0.6 * PERIOD / 3.0);
-    assert_eq!((si.initial, si.limit), (0.4, 250.0));
-    let fixed = SoftStarterConfig::<Fixed>::try_new(&soft, PERIOD, BASES).unwrap();
-    number(fixed.initial, 0.4);
-    number(fixed.limit, 250.0 / BASES.torque);
-    for (step, is_right) in [(1.001e-6, true), (0.999e-6, false), (0.0999, true), (0.1001, false)] {
-        let soft = SoftStart { rise: 0.6 * PERIOD / step, ..soft };
-        assert_eq!(SoftStarterConfig::<f64>::try_new(&soft, PERIOD, BASES).is_ok(), is_right, "{step}");
-    }
-    // twice the base is where fixed point holds an observed torque, so no torque is above it
-    let twice = SoftStart { peak: 2.0 * BASES.torque, ..soft };
-    assert!(SoftStarterConfig::<Fixed>::try_new(&twice, PERIOD, BASES).is_err());
-    assert!(SoftStarterConfig::<f64>::try_new(&twice, PERIOD, BASES).is_ok());
-    let below = SoftStart { peak: 1.99 * BASES.torque, ..soft };
-    assert!(SoftStarterConfig::<Fixed>::try_new(&below, PERIOD, BASES).is_ok());
 
     let si = SlewConfig::<f64, ()>::try_new(5_000.0, (), PERIOD, BASES).unwrap();
     double(si.step, 0.5);

@@ -1,6 +1,6 @@
 //! Any characteristic as one type: torque and slope at a speed, for what is designed from them.
 
-use super::{Combustion, Induction, Line, Parabola, Series, Shunt};
+use super::{Induction, Line, Parabola, Series};
 use crate::machine::{Speed, Torque};
 
 /// A characteristic of a prime mover, or of a load: torque against speed [Wang 1989 §1-2].
@@ -10,11 +10,8 @@ use crate::machine::{Speed, Torque};
 /// | [`Line`] | straight line through two points; a shunt motor, any motor near its rated point | [Wang 1989 (1-6)] |
 /// | [`Parabola`] | through three points of a measured curve | [Wang 1989 (1-7)] |
 /// | [`Induction`] | with breakdown torque; with rotor resistance for cranes | [Wang 1989 (1-8)], Kloss 1909 |
-/// | [`Combustion`] | full-load curve, with a governor above rated speed | Leiderman; Jazar, Vehicle Dynamics, ch. 4 |
-/// | [`Shunt`], [`Series`] | direct-current motors from voltage, resistance and flux | derived; shapes: Wang 1989 §1-2 |
+/// | [`Series`] | direct-current motor from voltage, resistance and flux | derived; shape: Wang 1989 §1-2 |
 /// | [`Characteristic`] | any of them, with its slope | |
-/// | [`ResistorStart`](super::ResistorStart) | start of a slip-ring motor by resistors in steps | derived |
-/// | [`SoftStart`](super::SoftStart) | start by reduced voltage under a torque limit | derived |
 /// | [`StartingLaw`](super::StartingLaw) | `tau`, `tau (1 - t/T)`, `tau (1 - t^2/T^2)` | [Huang 1987 §2.2] |
 ///
 /// Torques are in N m, speeds in rad/s, at the motor's shaft. The stiffness of a characteristic is `|d tau/d omega|`
@@ -27,14 +24,10 @@ pub enum Characteristic {
     Line(Line),
     /// A parabola; as a load a fan or a pump.
     Parabola(Parabola),
-    /// A shunt motor.
-    Shunt(Shunt),
     /// A series motor.
     Series(Series),
     /// An induction motor.
     Induction(Induction),
-    /// A combustion engine at full load.
-    Combustion(Combustion),
 }
 
 impl Characteristic {
@@ -44,28 +37,23 @@ impl Characteristic {
         match self {
             Self::Line(line) => line.torque(speed),
             Self::Parabola(parabola) => parabola.torque(speed),
-            Self::Shunt(motor) => motor.torque(speed),
             Self::Series(motor) => motor.torque(speed),
             Self::Induction(motor) => motor.torque(speed),
-            Self::Combustion(engine) => engine.torque(speed),
         }
     }
 
-    /// Slope `d tau/d omega` at a speed (N m s/rad), negative where the torque falls with the speed; at a corner of an
-    /// engine's curve that above it.
+    /// Slope `d tau/d omega` at a speed (N m s/rad), negative where the torque falls with the speed.
     #[must_use]
     pub const fn slope(&self, speed: Speed) -> f64 {
         match self {
             Self::Line(line) => -line.slope,
             Self::Parabola(parabola) => parabola.linear + 2.0 * parabola.square * speed.0,
-            Self::Shunt(motor) => -motor.stiffness(),
             Self::Series(motor) => -motor.stiffness(speed),
             Self::Induction(motor) => {
                 let slip = 1.0 - speed.0 / motor.synchronous;
                 let falls = slip.abs() < motor.breakdown_slip;
                 if falls { -motor.stiffness(speed) } else { motor.stiffness(speed) }
             }
-            Self::Combustion(engine) => engine.slope(speed),
         }
     }
 }

@@ -1,57 +1,7 @@
-//! Direct-current motors, unsaturated, brushes and iron without loss.
+//! The direct-current series motor, unsaturated, brushes and iron without loss.
 
 use crate::machine::error::{Error, not_negative, positive};
 use crate::machine::{Speed, Torque};
-
-/// A shunt or separately excited motor: `tau = c (U - c omega)/R` [derived; shape: Wang 1989 §1-2].
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[doc(alias("DC motor", "direct-current motor"))]
-pub struct Shunt {
-    /// Armature voltage (V).
-    pub voltage: f64,
-    /// Resistance of the armature's circuit (ohm).
-    pub resistance: f64,
-    /// Torque over current, and voltage over speed (V s): less in a weakened field.
-    pub flux: f64,
-}
-
-impl Shunt {
-    stops! {
-        /// From voltage (V), resistance (ohm) and flux (V s).
-        pub const fn new(voltage: f64, resistance: f64, flux: f64) -> Self = try_new
-    }
-
-    /// [`new`](Self::new), with an error for a value out of range.
-    ///
-    /// # Errors
-    /// [`Error::DirectCurrent`].
-    pub const fn try_new(voltage: f64, resistance: f64, flux: f64) -> Result<Self, Error> {
-        if positive(voltage) && positive(resistance) && positive(flux) {
-            Ok(Self { voltage, resistance, flux })
-        } else {
-            Err(Error::DirectCurrent)
-        }
-    }
-
-    /// Torque at a speed.
-    #[must_use]
-    pub const fn torque(&self, speed: Speed) -> Torque {
-        Torque(self.flux * (self.voltage - self.flux * speed.0) / self.resistance)
-    }
-
-    /// Speed without load.
-    #[must_use]
-    pub const fn no_load_speed(&self) -> Speed {
-        Speed(self.voltage / self.flux)
-    }
-
-    /// Stiffness of the characteristic (N m s/rad).
-    #[must_use]
-    pub const fn stiffness(&self) -> f64 {
-        self.flux * self.flux / self.resistance
-    }
-}
 
 /// A series motor: `tau = c I^2`, `I = U/(R + c omega)` [derived; shape: Wang 1989 §1-2]. Without load it runs away.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -70,10 +70,4 @@ impl Induction {
         let sum = s * s + a * a;
         (2.0 * self.breakdown * a * (a - s) * (a + s) / (sum * sum) / self.synchronous).abs()
     }
-
-    /// Torque at standstill.
-    #[must_use]
-    pub const fn starting_torque(&self) -> Torque {
-        self.torque(Speed(0.0))
-    }
 }

@@ -17,8 +17,8 @@ type Polynomial = [f64; 5];
 
 impl Characteristic {
     /// Time (s) in which the motor takes a rigid machine from one speed up to another against a load torque, constant
-    /// or rising as that of a fan: `J integral of d omega/(tau - tau_L)`. Infinite where the torque does not suffice,
-    /// or an engine is below idle. The machine's own weight is not included: it belongs in `load.constant`.
+    /// or rising as that of a fan: `J integral of d omega/(tau - tau_L)`. Infinite where the torque does not suffice.
+    /// The machine's own weight is not included: it belongs in `load.constant`.
     ///
     /// Torque less load is a ratio of polynomials for every characteristic. The integral is cut into pieces so short
     /// that no root of the numerator lies within 2.6 half-lengths of a middle, where Gauss's ten points are within a
@@ -44,10 +44,6 @@ impl Characteristic {
             * match self {
                 Self::Line(line) => duration([line.stall, -line.slope, 0.0], one, load, from, to),
                 Self::Parabola(curve) => duration([curve.constant, curve.linear, curve.square], one, load, from, to),
-                Self::Shunt(motor) => {
-                    let line = [motor.stiffness() * motor.no_load_speed().0, -motor.stiffness(), 0.0];
-                    duration(line, one, load, from, to)
-                }
                 Self::Series(motor) => {
                     let (r, c) = (motor.resistance, motor.flux);
                     let supply = [c * motor.voltage * motor.voltage, 0.0, 0.0];
@@ -58,17 +54,6 @@ impl Characteristic {
                     let twice = 2.0 * motor.breakdown * a;
                     let square = [1.0 + a * a, -2.0 / w, 1.0 / (w * w)];
                     duration([twice, -twice / w, 0.0], square, load, from, to)
-                }
-                Self::Combustion(engine) => {
-                    if from < engine.idle && from < to {
-                        return f64::INFINITY;
-                    }
-                    let rated = if to < engine.rated_speed { to } else { engine.rated_speed };
-                    let curve = engine.full_load();
-                    let slope = engine.rated_torque / (engine.no_load - engine.rated_speed);
-                    let governed = if from > rated { from } else { rated };
-                    duration(curve, one, load, from, rated)
-                        + duration([slope * engine.no_load, -slope, 0.0], one, load, governed, to)
                 }
             }
     }

@@ -1,8 +1,6 @@
 //! Prime movers against the textbook's examples and their own definitions.
 
-use driveline::machine::{
-    Combustion, CombustionType, Error, Induction, Line, Parabola, Series, Shunt, Speed, StartingLaw, Torque,
-};
+use driveline::machine::{Error, Induction, Line, Parabola, Series, Speed, Torque};
 
 use crate::references::{case, close, meets};
 
@@ -71,41 +69,9 @@ fn an_induction_motor_out_of_range_is_refused() {
     assert_eq!(wrong(95.0, 1.0), Err(Error::Overload));
 }
 
-/// Jazar, Vehicle Dynamics ch. 4: power at rated speed is rated power; the power's derivative there, a + 2 b - 3 c, is
-/// zero with spark ignition, and positive of a diesel, whose governor ends the curve.
+/// Power in less heat is power out: U I - R I^2 = tau omega.
 #[test]
-fn combustion_engines() {
-    for (mixture, overload) in [
-        (CombustionType::Spark, 1.25),
-        (CombustionType::IndirectInjection, 1.09),
-        (CombustionType::DirectInjection, 1.189_225),
-    ] {
-        let engine = Combustion::new(mixture, (Speed(200.0), Torque(1_500.0)), Speed(70.0), Speed(210.0));
-        let power = |speed: f64| engine.torque(Speed(speed)).0 * speed;
-        close(power(200.0), 300e3, ROUNDING);
-        let rise = (power(200.0) - power(199.99)) / 0.01 * 200.0 / 300e3;
-        let expected = [0.0, 0.4, 0.13][mixture as usize];
-        // The second derivative is 2 b - 6 c, over half the difference of speeds: 1e-4.
-        assert!((rise - expected).abs() < 2e-4);
-        // a + b^2/(4 c), worked out by hand from the coefficients.
-        close(engine.overload(), overload, 1e-12);
-        // The governor: halfway down halfway through its droop, nothing beyond, nothing below idle.
-        close(engine.torque(Speed(205.0)).0, 750.0, 1e-13);
-        assert_eq!([engine.torque(Speed(211.0)).0, engine.torque(Speed(69.0)).0], [0.0; 2]);
-        close(engine.droop(), 0.05, 1e-14);
-    }
-    let wrong = Combustion::try_new(CombustionType::Spark, (Speed(200.0), Torque(1.0)), Speed(70.0), Speed(200.0));
-    assert_eq!(wrong, Err(Error::CombustionEngine));
-}
-
-/// 440 V, 0.1 ohm, 2.8 V s: 100 A give 280 N m at 430/2.8 rad/s.
-#[test]
-fn direct_current_motors() {
-    let shunt = Shunt::new(440.0, 0.1, 2.8);
-    close(shunt.torque(Speed(430.0 / 2.8)).0, 280.0, 1e-12);
-    close(shunt.no_load_speed().0, 440.0 / 2.8, ROUNDING);
-    close(shunt.stiffness(), 78.4, ROUNDING);
-    // Power in less heat is power out: U I - R I^2 = tau omega.
+fn a_series_motor() {
     let series = Series::new(440.0, 0.2, 0.03);
     for speed in [20.0, 60.0, 150.0] {
         let (current, torque) = (series.current(Speed(speed)), series.torque(Speed(speed)).0);
@@ -113,22 +79,5 @@ fn direct_current_motors() {
         let slope = (series.torque(Speed(speed + 1e-3)).0 - series.torque(Speed(speed - 1e-3)).0) / 2e-3;
         close(series.stiffness(Speed(speed)), slope.abs(), 1e-7);
     }
-    assert_eq!(Shunt::try_new(440.0, 0.0, 2.8), Err(Error::DirectCurrent));
     assert_eq!(Series::try_new(-440.0, 0.1, 2.8), Err(Error::DirectCurrent));
-}
-
-#[test]
-fn starting_laws_and_their_impulse() {
-    let (torque, time) = (300.0, 2.0);
-    for (law, mid) in [
-        (StartingLaw::Hard { torque }, 300.0),
-        (StartingLaw::Medium { torque, time }, 225.0),
-        (StartingLaw::Soft { torque, time }, 150.0),
-    ] {
-        close(law.torque(0.0).0, 300.0, ROUNDING);
-        close(law.torque(1.0).0, mid, ROUNDING);
-    }
-    assert_eq!(StartingLaw::Soft { torque, time }.torque(2.0).0, 0.0);
-    assert_eq!(StartingLaw::Soft { torque, time: 0.0 }.check(), Err(Error::StartingTime));
-    assert_eq!(StartingLaw::Hard { torque: f64::NAN }.check(), Err(Error::StartingTime));
 }

@@ -1,9 +1,7 @@
 //! The limit of torque by a prime mover's characteristic.
 
 use driveline::design::{Error, TorqueCurve};
-use driveline::machine::{
-    Characteristic, Combustion, CombustionType, Induction, Line, Parabola, Series, Shunt, Speed, Torque,
-};
+use driveline::machine::{Characteristic, Induction, Line, Parabola, Series, Speed, Torque};
 
 /// The points of the curve lie on the closed form of the limit.
 fn meets<const K: usize>(mover: Characteristic, speeds: [f64; K], expected: impl Fn(f64) -> f64) {
@@ -18,9 +16,6 @@ fn points_lie_on_the_characteristic() {
     let line = Line::new((Speed(154.0), Torque(750.0)), Speed(157.0));
     // beyond no load it would brake: the limit is zero
     meets(Characteristic::Line(line), [0.0, 100.0, 155.0, 157.0, 159.0], |w| (250.0 * (157.0 - w)).max(0.0));
-    // 2.8 (440 - 2.8 w)/0.1
-    let shunt = Shunt::new(440.0, 0.1, 2.8);
-    meets(Characteristic::Shunt(shunt), [0.0, 440.0 / 2.8], |w| 28.0 * (440.0 - 2.8 * w));
     let parabola = Parabola { constant: 1700.0, linear: -0.6, square: -0.002 };
     let curve = |w: f64| (1700.0 - 0.6 * w - 0.002 * w * w).max(0.0);
     meets(Characteristic::Parabola(parabola), [0.0, 60.0, 180.0, 500.0, 900.0], curve);
@@ -45,35 +40,14 @@ fn points_lie_on_kloss_s_curve() {
     meets(crane, [0.0, 60.0, 110.0, 157.08], kloss(1.0));
 }
 
-/// `tau_N (a + b x - c x^2)` to rated speed, the governor's line from there to no load; below idle as at idle.
-#[test]
-fn points_lie_on_an_engine_s_full_load() {
-    let rated = (Speed(200.0), Torque(1500.0));
-    for (mixture, [a, b, c]) in [
-        (CombustionType::Spark, [1.0, 1.0, 1.0]),
-        (CombustionType::IndirectInjection, [0.6, 1.4, 1.0]),
-        (CombustionType::DirectInjection, [0.87, 1.13, 1.0]),
-    ] {
-        let engine = Characteristic::Combustion(Combustion::new(mixture, rated, Speed(70.0), Speed(210.0)));
-        meets(engine, [0.0, 70.0, 100.0, 190.0, 200.0, 205.0, 210.0], |w| {
-            let x = w.max(70.0) / 200.0;
-            let full = 1500.0 * (a + x * (b - c * x));
-            if w <= 200.0 { full } else { (150.0 * (210.0 - w)).max(0.0) }
-        });
-    }
-}
-
 /// Slopes against central differences: their error is a sixth of the third derivative times 1e-6.
 #[test]
 fn slopes_have_their_sign() {
-    let rated = (Speed(200.0), Torque(1500.0));
     let movers = [
         Characteristic::Line(Line { stall: 100.0, slope: 2.0 }),
         Characteristic::Parabola(Parabola { constant: 0.0, linear: 1.0, square: 0.02 }),
-        Characteristic::Shunt(Shunt::new(440.0, 0.1, 2.8)),
         Characteristic::Series(Series::new(440.0, 0.2, 0.03)),
         Characteristic::Induction(Induction::new(Speed(154.99), Torque(750.0), Speed(157.08), 2.5)),
-        Characteristic::Combustion(Combustion::new(CombustionType::Spark, rated, Speed(70.0), Speed(210.0))),
     ];
     for mover in movers {
         for speed in [20.0, 80.0, 141.0, 150.0, 156.0, 160.0, 173.0, 205.0] {

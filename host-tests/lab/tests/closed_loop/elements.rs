@@ -1,4 +1,3 @@
 //! Elements of machines in closed loop.
 
 mod scenes;
-mod stepped;
