@@ -3,6 +3,7 @@
 mod answers;
 mod balance;
 mod cli_emit;
+mod composed;
 mod critical;
 mod damper;
 mod elements;

@@ -1,0 +1,127 @@
+//! What a train file composes, on 20 drawn machines each against closed forms: a skip hoist on an incline, a speed that
+//! is given, and a planetary set with three free members.
+
+use std::f64::consts::{PI, TAU};
+use std::process::Command;
+
+use driveline_solver::noise::Noise;
+use serde_json::Value;
+
+/// Within 1e-6, which the elements far exceed: of the figure, or of what it is the difference of.
+fn close(found: &Value, expected: f64, scale: f64) {
+    let found = found.as_f64().unwrap();
+    assert!((found - expected).abs() <= 1e-6 * expected.abs().max(scale), "{found} for {expected}");
+}
+
+fn coordinate(name: &str, inertia: f64, speed: f64) -> String {
+    format!("[[coordinate]]\nname = \"{name}\"\ninertia = {inertia:?}\nspeed = {speed:?}\n")
+}
+
+fn constant(on: &str, torque: f64) -> String {
+    format!("[[torque]]\non = \"{on}\"\nkind = \"constant\"\ntorque = {torque:?}\n")
+}
+
+/// The result of a train for a time (s).
+fn simulated(train: &str, time: f64) -> Value {
+    let folder = tempfile::tempdir().unwrap();
+    let text = format!("name = \"train\"\n{train}[run]\ntime = {time:?}\nstep = {:?}\n", time / 100.0);
+    std::fs::write(folder.path().join("train.toml"), text).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+    let output = command.args(["simulate", "train.toml", "--json"]).current_dir(folder.path()).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// Values between two bounds, even by ratio.
+fn drawn(noise: &mut Noise, low: f64, high: f64) -> f64 {
+    low * (high / low).powf(0.5 + 0.5 * noise.uniform())
+}
+
+/// The rope carries weight and friction `W` at an even speed; then the motor's torque accelerates by `a`, and the force
+/// swings between `W` and `W + 2 m a`.
+#[test]
+fn a_skip_on_an_incline() {
+    let mut noise = Noise::new(1);
+    for _ in 0..20 {
+        let [drum, radius, mass, stiffness, incline, friction, rate] =
+            [(5.0, 100.0), (0.2, 1.0), (500.0, 2e4), (2e5, 5e6), (0.2, 1.5), (0.005, 0.1), (0.1, 1.0)]
+                .map(|(low, high)| drawn(&mut noise, low, high));
+        let [weight, rubbing] = [incline.sin(), friction * incline.cos()].map(|share| mass * 9.806_65 * share);
+        let held = weight + rubbing;
+        let time = 4.0 * TAU / (stiffness * (1.0 / mass + radius * radius / drum)).sqrt();
+        let train = coordinate("drum", drum, 1.0 / radius)
+            + &coordinate("skip", mass, 1.0)
+            + &constant("drum", radius * (held + mass * rate) + drum * rate / radius)
+            + &constant("skip", -weight)
+            + &format!(
+                "[[friction]]\non = \"skip\"\ntorque = {rubbing:?}\n[[link]]\nname = \"rope\"\nterms = {{ drum = \
+                 {radius:?}, skip = -1.0 }}\nstiffness = {stiffness:?}\nrope = true\nelongation = {:?}\n",
+                held / stiffness
+            );
+        let found = simulated(&train, time);
+        close(&found["links"][0]["least"], held, 0.0);
+        close(&found["links"][0]["greatest"], held + 2.0 * mass * rate, 0.0);
+        close(&found["coordinates"][1]["last"], 1.0 + rate * time, 0.0);
+    }
+}
+
+/// A mass of 1e9 times the load's has the given speed: it rises evenly for a time, and the shaft's torque swings up to
+/// twice the load's acceleration, then by `2 |sin(w T/2)|` about the load.
+#[test]
+fn a_speed_that_is_given() {
+    let mut noise = Noise::new(2);
+    for _ in 0..20 {
+        let [inertia, stiffness, load, rate, periods] =
+            [(0.1, 10.0), (1e3, 1e5), (10.0, 500.0), (1.0, 100.0), (0.2, 5.0)]
+                .map(|(low, high)| drawn(&mut noise, low, high));
+        let omega = (stiffness / inertia).sqrt();
+        let rise = periods * TAU / omega;
+        let (given, end) = (1e9 * inertia, rise * (1.0 + 1e-10));
+        let train = coordinate("given", given, 10.0)
+            + &coordinate("load", inertia, 10.0)
+            + &constant("load", -load)
+            + &format!(
+                "[[link]]\nname = \"shaft\"\nbetween = [\"given\", \"load\"]\nstiffness = {stiffness:?}\nelongation = \
+                 {:?}\n[[torque]]\non = \"given\"\nkind = \"table\"\npoints = [[0.0, {torque:?}], [{rise:?}, \
+                 {torque:?}], [{end:?}, 0.0]]\n",
+                load / stiffness,
+                torque = given * rate
+            );
+        let found = simulated(&train, rise + 2.0 * TAU / omega);
+        let swing = (1.0 - (omega * rise).min(PI).cos()).max(2.0 * (0.5 * omega * rise).sin().abs());
+        close(&found["links"][0]["greatest"], load + inertia * rate * swing, 0.0);
+        close(&found["coordinates"][0]["last"], 10.0 + rate * rise, 0.0);
+    }
+}
+
+/// Torques on all three: the mesh's force swings from zero to twice its mean; after whole periods each member has the
+/// speed of its torque less the mean force's.
+#[test]
+fn a_planetary_set_with_three_free_members() {
+    let mut noise = Noise::new(3);
+    for _ in 0..20 {
+        let [sun, ring] = [(15.0, 40.0), (60.0, 120.0)].map(|(low, high)| drawn(&mut noise, low, high).round());
+        let (teeth, names) = ([sun, ring, -(sun + ring)], ["sun", "ring", "carrier"]);
+        let inertias: [f64; 3] = std::array::from_fn(|_| drawn(&mut noise, 0.01, 10.0));
+        let torques: [f64; 3] = std::array::from_fn(|_| 200.0 * noise.uniform());
+        let stiffness = drawn(&mut noise, 1.0, 1e3);
+        let sum = |of: &dyn Fn(usize) -> f64| (0..3).map(|k| teeth[k] * of(k) / inertias[k]).sum::<f64>();
+        let mobility = sum(&|k| teeth[k]);
+        let mean = sum(&|k| torques[k]) / mobility;
+        let time = 4.0 * TAU / (stiffness * mobility).sqrt();
+        let members: String =
+            (0..3).map(|k| coordinate(names[k], inertias[k], 0.0) + &constant(names[k], torques[k])).collect();
+        let mesh = format!(
+            "[[link]]\nname = \"mesh\"\nterms = {{ sun = {sun:?}, ring = {ring:?}, carrier = {:?} }}\nstiffness = \
+             {stiffness:?}\n",
+            teeth[2]
+        );
+        let found = simulated(&(members + &mesh), time);
+        close(&found["links"][0][if mean > 0.0 { "greatest" } else { "least" }], 2.0 * mean, 0.0);
+        for k in 0..3 {
+            let rate = |torque: f64| torque / inertias[k] * time;
+            let (free, back) = (rate(torques[k]), rate(teeth[k] * mean));
+            close(&found["coordinates"][k]["last"], free - back, free.abs());
+        }
+    }
+}
