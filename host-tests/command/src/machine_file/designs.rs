@@ -153,7 +153,13 @@ impl Lack {
         let sentence = match error {
             Error::LoopGain => "the speed loop with its observer has a gain margin below 6 dB",
             Error::LoopPhase => "the speed loop with its observer has a phase margin below 30 degrees",
-            Error::LoopLate => "the speed loop with its observer is unstable with a torque as late as it may be",
+            Error::LoopLate => {
+                "the speed loop with its observer is unstable with `delay` and `lag` of `[tolerance]` in the torque"
+            }
+            Error::LoopUndescribed => {
+                "the speed loop with its observer is unstable, or has a gain margin below 6 dB, with a resonance that \
+                 the elements leave out, from eight times theirs on"
+            }
             other => other.message(),
         };
         let cause = sentence.split_once(": ").map_or(sentence, |(cause, _)| cause);
@@ -434,7 +440,7 @@ impl MachineFile {
             changed.bandwidth = bandwidth;
             match changed.lack_with(two, is_rigid) {
                 Ok(lack) => lack.map(|lack| lack.cause),
-                Err(error) => Some(error.message()),
+                Err(error) => Some(Lack::of(error).cause),
             }
         };
         let mut widest = Widest { share: self.bandwidth, cause: None };
