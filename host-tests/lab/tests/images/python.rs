@@ -23,7 +23,7 @@ fn environment(place: &Path) -> Option<PathBuf> {
     let mut made = Command::new("python3");
     made.args(["-m", "venv"]).arg(place.join("environment"));
     let mut filled = Command::new(&python);
-    filled.args(["-m", "pip", "install", "--quiet", "numpy", "maturin", "control", "matplotlib", "mypy"]);
+    filled.args(["-m", "pip", "install", "--quiet", "numpy", "maturin", "control", "matplotlib", "mypy", "jsonschema"]);
     let steps = [("python3 has no venv", made), ("the packages of PyPI are not there", filled)];
     for (what, mut command) in steps.into_iter().skip(usize::from(python.is_file())) {
         let ended = command.env("PIP_DISABLE_PIP_VERSION_CHECK", "1").output().ok()?;
@@ -45,7 +45,9 @@ fn the_wheel_is_built_installed_and_has_the_bits_of_the_firmware() {
     let path = std::env::var_os("PATH").unwrap_or_default();
     let path = std::env::join_paths([programs].into_iter().chain(std::env::split_paths(&path))).unwrap();
     let in_root = |arguments: &[&str]| {
-        let ended = Command::new(&python).args(arguments).env("PATH", &path).current_dir(root).output().unwrap();
+        let mut command = Command::new(&python);
+        command.args(arguments).env("PATH", &path).env("DRIVELINE_TOOL", env!("CARGO_BIN_EXE_lab"));
+        let ended = command.current_dir(root).output().unwrap();
         ended_well(&ended);
         String::from_utf8_lossy(&ended.stderr).into_owned()
     };
