@@ -2,8 +2,8 @@
 //!
 //! A new board of QEMU's is one file beside [`mps2_an386`] with its [`Facts`] and its [`Board`]. It has a line in
 //! [`BOARDS`] and one in the choice below. Where its memory is not that of `mps2.x`, it brings a `.x` file of the same
-//! name. A board with a motor ([`nucleo_g474re`]) implements [`driveline::axis::Board`] instead; `doc/boards.md` says
-//! how.
+//! name. A board with a motor ([`nucleo_g474re`]) implements [`driveline::axis::Board`] instead; `doc/makers/boards.md`
+//! says how.
 
 pub mod facts;
 pub mod interface;

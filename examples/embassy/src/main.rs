@@ -4,7 +4,8 @@
 //! the main loop awaits, the tick comes first. Encoder: TIM3 on PA6 and PA7. Torque: DAC1 on PA4, half of its range for
 //! none. The blue button switches the setpoint.
 //!
-//! Enable line, brake, watchdog and the board's faults are left out: `doc/boards.md` has them. The drivers may panic.
+//! Enable line, brake, watchdog and the board's faults are left out: `doc/makers/boards.md` has them. The drivers may
+//! panic.
 //! The handler here then stops the core, and the output keeps its last torque: on a machine it must switch the power
 //! stage off.
 #![no_std]

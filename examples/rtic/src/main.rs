@@ -4,7 +4,7 @@
 //! main loop. Encoder: TIM3 on PA6 and PA7. Torque: DAC1 on PA4, half of its range for none. The blue button switches
 //! the setpoint. Registers: ST RM0440; names in capitals are its own.
 //!
-//! Enable line, brake, watchdog and the board's faults are left out: `doc/boards.md` has them.
+//! Enable line, brake, watchdog and the board's faults are left out: `doc/makers/boards.md` has them.
 #![no_std]
 #![no_main]
 

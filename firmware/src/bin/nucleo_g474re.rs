@@ -5,7 +5,7 @@
 //!
 //! The blue button stops the drive when it is touched. It starts it when it was pressed and let go, if the terminal has
 //! permitted that ([`Operator`]). `cargo driveline watch` shows the telemetry; requests come as frames of [`Asking`].
-//! See `doc/boards.md`.
+//! See `doc/makers/boards.md`.
 
 use core::cell::UnsafeCell;
 use core::mem::MaybeUninit;

@@ -5,7 +5,7 @@
 //! stands on: the image may hold no reachable panic, and a hardware layer that checks its arguments at run time has
 //! some.
 //! `nucleo_g474re/console.rs` is the board of the bench alone, which drives nothing and counts cycles.
-//! `doc/boards.md` has the wiring. **It has not run on hardware.**
+//! `doc/makers/boards.md` has the wiring. **It has not run on hardware.**
 //!
 //! Registers: ST RM0440. Pins: ST DS12288. Names in capitals are theirs.
 

@@ -20,15 +20,26 @@ fn commands() -> Vec<String> {
 }
 
 #[test]
-fn every_command_is_on_the_page_with_all_its_options() {
-    let pages = ["doc/commands.md", "doc/makers/laboratory.md"].map(Page::read);
-    let sections = || pages.iter().flat_map(|page| &page.sections);
+fn every_command_has_a_section_and_a_table_all_its_options() {
+    let [tool, laboratory] = ["doc/commands.md", "doc/makers/laboratory.md"].map(Page::read);
     let commands = commands();
     assert!(commands.len() > 10, "{commands:?}");
     let (mut wrong, mut found) = (Vec::new(), 0);
     for command in &commands {
-        let Some(section) = sections().find(|section| section.code == [command.as_str()]) else {
-            wrong.push(format!("`{command}` has no section"));
+        let options: BTreeSet<String> = help(&[command])
+            .lines()
+            .map(str::trim_start)
+            .filter(|line| line.starts_with("--") || line.starts_with("-h"))
+            .filter_map(|line| line.split([' ', ',']).find(|word| word.starts_with("--")).map(str::to_owned))
+            .filter(|option| !["--help", "--color"].contains(&&**option))
+            .collect();
+        found += options.len();
+        let of = |page: &Page| page.sections.iter().position(|section| section.code == [command.as_str()]);
+        // the page of a machine's designer leaves options to the help
+        let Some(section) = of(&laboratory).map(|at| &laboratory.sections[at]) else {
+            if of(&tool).is_none() {
+                wrong.push(format!("`{command}` has no section"));
+            }
             continue;
         };
         let told: BTreeSet<String> = section
@@ -38,14 +49,6 @@ fn every_command_is_on_the_page_with_all_its_options() {
             .filter(|option| option.starts_with("--"))
             .map(str::to_owned)
             .collect();
-        let options: BTreeSet<String> = help(&[command])
-            .lines()
-            .map(str::trim_start)
-            .filter(|line| line.starts_with("--") || line.starts_with("-h"))
-            .filter_map(|line| line.split([' ', ',']).find(|word| word.starts_with("--")).map(str::to_owned))
-            .filter(|option| !["--help", "--color"].contains(&&**option))
-            .collect();
-        found += options.len();
         wrong.extend(options.difference(&told).map(|option| format!("`{command} {option}` is missing")));
         wrong.extend(told.difference(&options).map(|option| format!("`{command}` has no {option}")));
     }

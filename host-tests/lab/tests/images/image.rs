@@ -212,7 +212,7 @@ fn the_stack_of_the_board_with_a_motor_ends_where_the_memory_ends() {
 #[test]
 fn the_interrupt_of_the_board_with_a_motor_is_as_long_as_the_book_says() {
     let image = build(ON_NUCLEO, NUCLEO, Program::Nucleo, |_| {}).unwrap();
-    let page = include_str!("../../../../doc/boards.md");
+    let page = include_str!("../../../../doc/makers/boards.md");
     let line = page.lines().find(|line| line.starts_with("cargo lab longest-path") && line.contains("TIM6_DAC"));
     let arguments = line.unwrap().split_whitespace().skip(4);
     let mut command = Command::new(env!("CARGO_BIN_EXE_lab"));

@@ -48,7 +48,7 @@ fn requests_are_found_among_other_bytes() {
 /// The bytes that the book prints permit a start.
 #[test]
 fn the_book_permits_a_start() {
-    let book = include_str!("../../../../../doc/boards.md");
+    let book = include_str!("../../../../../doc/makers/boards.md");
     let printed = book.lines().find_map(|line| line.strip_prefix("printf '")?.strip_suffix("' > /dev/ttyACM0"));
     let bytes: Vec<u8> =
         printed.unwrap().split("\\x").skip(1).map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect();
@@ -320,7 +320,7 @@ fn the_bridge_has_no_flats_at_full_torque() {
 /// Of the timer's outputs the image drives the two that the wiring has, and its comment names them.
 #[test]
 fn outputs_without_a_function_are_not_driven() {
-    let book = include_str!("../../../../../doc/boards.md");
+    let book = include_str!("../../../../../doc/makers/boards.md");
     let name = |(port, number)| format!("P{port}{number}");
     let driven = PHASE_PINS.map(|pins| pins.map(|pin| book.contains(&format!("| {}, TIM1_CH", name(pin)))));
     assert_eq!(driven, [[true; 2], [false; 2], [false; 2]]);
