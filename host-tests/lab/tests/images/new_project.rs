@@ -50,7 +50,7 @@ fn a_project_runs_in_qemu_on_each_board_and_passes_its_test() {
         ended_well(&new(place.path(), &options));
         let folder = place.path().join(name);
         let said = ended_well(&in_project(&folder, &["run", "--release"]));
-        // a line for each tenth of a second; the last one at the largest speed of the file
+        // a line for each quarter of a second; the last one at the largest speed of the file
         let last = said.lines().rfind(|line| line.ends_with("  none")).unwrap_or(&said).to_owned();
         let values: Vec<f64> = last.split_whitespace().filter_map(|value| value.parse().ok()).collect();
         // an integral leaves no error: what is left of the settling
