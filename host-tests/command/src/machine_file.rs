@@ -127,7 +127,7 @@ pub use read::{LARGEST, not_toml, parse, parse_for_modes, read, text};
 pub use rotor::{Balancing, RotorFile, parse_rotor, read_rotor};
 pub use source::{Source, printable};
 pub use table::{Item, Table};
-pub use train::{TrainFile, is_train, parse_train, parse_train_for_modes, read_train};
+pub use train::{PinForces, TrainFile, is_train, parse_train, parse_train_for_modes, read_train};
 
 use class::Class;
 use driveline::machine::{Chain, Train};

@@ -164,6 +164,16 @@ fn tables(simulation: &Simulation) -> Vec<Section> {
         let text = "Torque times the way to and fro, as the lines of the run show it; power, the most over a line.";
         all.push(Section::new("Dry friction", text, heat));
     }
+    if !simulation.pin_forces.is_empty() {
+        let mut pins = Table::new(["crank", "at rad", "crank pin N", "across N", "wrist pin N", "across N", "guide N"]);
+        for of in &simulation.pin_forces {
+            let numbers = [of.angle, of.crank[0], of.crank[1], of.wrist[0], of.wrist[1], of.guide].map(significant);
+            pins.row([of.name.clone()].into_iter().chain(numbers));
+        }
+        let text = "On the rod by the crank, on the slider by rod and guide, at the speed of the start, taken as even; \
+                    along the slider's way and across it.";
+        all.push(Section::new("Forces in the pins", text, pins));
+    }
     if let Some(cycle) = &simulation.cycle {
         let mut steady = Table::new([
             "coordinate".to_owned(),

@@ -40,7 +40,7 @@
 //! |---|---|
 //! | `[[coordinate]]` | `name`, `inertia`, (`speed`, `angle`, `viscous`), (`[coordinate.crank]` with `radius`, `rod`,
 //! `slider_mass`, (`rod_mass`, `rod_inertia`, `rod_centre`, `[coordinate.crank.pins]` with `coefficient` and the radii
-//! (`main`, `crank`, `wrist`)), or `[coordinate.four_bar]` with `crank`, `coupler`,
+//! (`main`, `crank`, `wrist`), `pins_at`), or `[coordinate.four_bar]` with `crank`, `coupler`,
 //! `rocker`, `ground`, (`coupler_mass`, `coupler_centre`, `coupler_inertia`, `rocker_inertia`,
 //! `[coordinate.four_bar.pins]` with `coefficient` and (`main`, `crank`, `rocker`, `pivot`)), or
 //! `[coordinate.toggle]` with the same and `link`, `direction`, `slider_mass`, or `[coordinate.cam]` with `lift`,
@@ -68,6 +68,7 @@ mod coordinate;
 mod friction;
 mod link;
 mod mechanism;
+mod pin_forces;
 mod reading;
 mod spur_pair;
 mod stiffness;
@@ -85,9 +86,10 @@ use super::read::{self, document, named, text};
 use super::referred::referred;
 use super::source::Source;
 use super::table::Table;
-use driveline_solver::plant::train::{Motion, StrokeLoad, Train};
+use driveline_solver::plant::train::{Crank, Motion, StrokeLoad, Train};
 use driveline_solver::plant::{Place, PlantError};
 pub(super) use mechanism::mean_inertia;
+pub use pin_forces::PinForces;
 use reading::{Joints, Reading};
 pub(crate) use stiffness::too_stiff;
 
@@ -122,6 +124,8 @@ pub struct TrainFile {
     pub step: f64,
     /// Coordinates whose mechanism rubs, which may only turn forwards.
     pub forwards: Vec<usize>,
+    /// Forces in the pins of its cranks at the angles that the file names.
+    pub pin_forces: Vec<PinForces>,
     /// The same machine without its dampers, where it has some.
     pub without_dampers: Option<Box<Self>>,
     /// The coordinate whose steady cycle is wanted, and its turns.
@@ -268,8 +272,15 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
         let (on, torque) = file.torque(table)?;
         coordinates[on] = coordinates[on].clone().source(torque);
     }
+    let loads = |at: usize| -> Vec<StrokeLoad> {
+        file.loads.iter().filter(|(on, _)| *on == at).map(|(_, load)| *load).collect()
+    };
+    let of = |(at, crank, angle): &(usize, Crank, f64)| {
+        PinForces::of(&file.names[*at], crank, [*angle, file.speeds[*at]], &loads(*at))
+    };
+    let pin_forces = file.pins_at.iter().map(of).collect();
     for (at, pins, _) in &file.pins {
-        let loads: Vec<StrokeLoad> = file.loads.iter().filter(|(on, _)| on == at).map(|(_, load)| *load).collect();
+        let loads = loads(*at);
         let coordinate = coordinates[*at].clone();
         coordinates[*at] = match pins {
             Joints::Crank(pins) => coordinate.pins(*pins, &loads),
@@ -413,6 +424,7 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
         time,
         step,
         forwards,
+        pin_forces,
         without_dampers,
         cycle,
         starting,

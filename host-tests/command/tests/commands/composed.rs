@@ -1,5 +1,5 @@
 //! What a train file composes, on 20 drawn machines each against closed forms: a skip hoist on an incline, a speed that
-//! is given, and a planetary set with three free members.
+//! is given, a planetary set with three free members; and the forces in the pins of a crank.
 
 use std::f64::consts::{PI, TAU};
 use std::process::Command;
@@ -123,5 +123,59 @@ fn a_planetary_set_with_three_free_members() {
             let (free, back) = (rate(torques[k]), rate(teeth[k] * mean));
             close(&found["coordinates"][k]["last"], free - back, free.abs());
         }
+    }
+}
+
+/// Second derivative of a place by the angle of the crank: five points, whose error is of the fourth power of 1e-3.
+fn bend(place: impl Fn(f64) -> f64, angle: f64) -> f64 {
+    let h = 1e-3;
+    let even = |k: f64| place(angle + k * h) + place(angle - k * h);
+    (16.0 * even(1.0) - even(2.0) - 30.0 * place(angle)) / (12.0 * h * h)
+}
+
+/// Newton's laws with the places themselves, differentiated by number, and the rod's moments about the wrist pin.
+#[test]
+fn forces_in_the_pins_of_a_crank() {
+    let mut noise = Noise::new(4);
+    for _ in 0..20 {
+        let [radius, longer, slider, mass, inertia, share, speed, angle, load] = [
+            (0.02, 0.5),
+            (2.0, 6.0),
+            (1.0, 500.0),
+            (0.5, 100.0),
+            (0.01, 10.0),
+            (0.1, 0.9),
+            (5.0, 100.0),
+            (0.05, 6.2),
+            (100.0, 1e5),
+        ]
+        .map(|(low, high)| drawn(&mut noise, low, high));
+        let rod = radius * longer;
+        let pin = |phi: f64| [radius * phi.cos(), radius * phi.sin()];
+        let wrist = |phi: f64| pin(phi)[0] + (rod * rod - pin(phi)[1].powi(2)).sqrt();
+        let centre = |phi: f64| [pin(phi)[0] * (1.0 - share) + wrist(phi) * share, pin(phi)[1] * (1.0 - share)];
+        let rate = |place: &dyn Fn(f64) -> f64| speed * speed * bend(place, angle);
+        let [x, y] = [0, 1].map(|k| mass * rate(&|phi| centre(phi)[k]));
+        let spin = inertia * rate(&|phi| -(pin(phi)[1] / rod).asin());
+        let at_wrist = slider * rate(&wrist) + load;
+        let at_crank = at_wrist + x;
+        // arms from the wrist pin to the rod's centre and to the crank pin
+        let [arm, lever] = [centre(angle), pin(angle)].map(|place| [place[0] - wrist(angle), place[1]]);
+        let across = (arm[0] * y - arm[1] * x + spin + lever[1] * at_crank) / lever[0];
+        let text = coordinate("crank", 1e3, speed)
+            + &format!(
+                "[coordinate.crank]\nradius = {radius:?}\nrod = {rod:?}\nslider_mass = {slider:?}\nrod_mass = \
+                 {mass:?}\nrod_inertia = {inertia:?}\nrod_centre = {share:?}\npins_at = {angle:?}\n[[torque]]\non = \
+                 \"crank\"\nkind = \"stroke\"\nforce = {:?}\n",
+                -load
+            );
+        let found = &simulated(&text, 1e-3)["pin_forces"][0];
+        // forces across are differences of parts as large as those along
+        let scale = at_crank.abs().max(at_wrist.abs());
+        close(&found["crank"][0], at_crank, 0.0);
+        close(&found["wrist"][0], at_wrist, 0.0);
+        close(&found["crank"][1], across, scale);
+        close(&found["wrist"][1], across - y, scale);
+        close(&found["guide"], y - across, scale);
     }
 }

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::starting_time::{StartingTime, is_reached};
 use super::swing::Swing;
 use crate::cli::{Failure, Progress};
-use crate::machine_file::TrainFile;
+use crate::machine_file::{PinForces, TrainFile};
 use driveline_report::format::{counted, significant};
 use driveline_solver::plant::train::converge::{BOUND, Recording, Sensitive, prove, prove_in_pieces};
 use driveline_solver::plant::train::{Cycle, Motion, Signal};
@@ -38,6 +38,8 @@ pub struct Simulation {
     pub links: Vec<Carried>,
     /// What the dry frictions slid, and their heat.
     pub frictions: Vec<Rubbed>,
+    /// Forces in the pins of cranks.
+    pub pin_forces: Vec<PinForces>,
     /// The event.
     pub events: Vec<Happened>,
     /// Deviation of the second integrator as a share of the peaks, and of the solver with events located ten times
@@ -352,6 +354,7 @@ impl Simulation {
             coordinates: (0..n).map(moved).collect(),
             links: (0..links).map(carried).collect(),
             frictions: rubbed.into_iter().map(|(rubbed, _)| rubbed).filter(|rubbed| rubbed.heat > 0.0).collect(),
+            pin_forces: file.pin_forces.clone(),
             events: motion.events().iter().map(|event| happened(file, event)).collect(),
             proof: proof.map(|proof| (proof.integrator.largest, proof.tightened.map(|tightened| tightened.largest))),
             sensitive: proof.and_then(|proof| proof.sensitive).map(Pieces::from),

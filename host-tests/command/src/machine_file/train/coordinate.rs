@@ -53,6 +53,10 @@ impl Reading {
                 pins.finish()?;
                 self.pins.push((self.names.len(), Joints::Crank(found), place));
             }
+            let turn = Quantity { most: TAU, ..Quantity::SIZE };
+            if let Some(angle) = crank.number_if("pins_at", turn)? {
+                self.pins_at.push((self.names.len(), drive, angle));
+            }
             friction = crank.number_or("friction", Quantity::SIZE, 0.0)?;
             if friction > 0.0 {
                 // against the slider, which goes inwards first

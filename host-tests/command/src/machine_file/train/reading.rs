@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use driveline_solver::plant::train::{FourBar, FourBarPins, Harmonic, Orders, Pins, StrokeLoad};
+use driveline_solver::plant::train::{Crank, FourBar, FourBarPins, Harmonic, Orders, Pins, StrokeLoad};
 
 use crate::machine_file::diagnostic::Diagnostic;
 use crate::machine_file::table::Table;
@@ -21,6 +21,8 @@ pub(super) struct Reading {
     pub(super) forwards: Vec<usize>,
     /// Coordinates whose mechanism has friction in its pins.
     pub(super) pins: Vec<(usize, Joints, Range<usize>)>,
+    /// Cranks whose pins' forces are wanted, each at an angle (rad).
+    pub(super) pins_at: Vec<(usize, Crank, f64)>,
     /// Forces on the slider of a coordinate's crank, or torques on the rocker of its four-bar.
     pub(super) loads: Vec<(usize, StrokeLoad)>,
 }
