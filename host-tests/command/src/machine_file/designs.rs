@@ -448,7 +448,8 @@ impl MachineFile {
             return None;
         }
         while widest.cause.is_none() && widest.share < WHOLE {
-            let next = (widest.share + STEP).min(WHOLE);
+            // in millionths, since sums of hundredths have an end in binary
+            let next = (((widest.share + STEP) * 1e6).round() / 1e6).min(WHOLE);
             widest.cause = lack(next);
             if widest.cause.is_none() {
                 widest.share = next;
