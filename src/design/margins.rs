@@ -133,8 +133,9 @@ impl OpenLoop {
         resonance: f64,
         nyquist: f64,
     ) {
-        let (beside, wide) = (NARROWEST * resonance, 0.1 * resonance);
-        if resonance + wide < nyquist {
+        let beside = NARROWEST * resonance;
+        let wide = (0.1 * resonance).min(0.9 * (nyquist - resonance));
+        if wide > beside {
             self.sweep(found, gains, resonance, [resonance - wide, resonance - beside], 150);
             self.sweep(found, gains, 0.0, [resonance - beside, resonance + beside], 10);
             self.sweep(found, gains, resonance, [resonance + beside, resonance + wide], 150);
