@@ -11,6 +11,7 @@
 //!
 //! With `DRIVELINE_WRITE` set a page gets what is printed, and its pictures what is drawn.
 
+mod json;
 mod troubleshooting;
 
 use std::fmt::Write as _;
