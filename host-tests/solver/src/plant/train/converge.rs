@@ -41,6 +41,7 @@ use textbook::{Change, Double};
 
 /// What a step of the second integrator may deviate by, as a share of the peaks. The first tick of a piece may deviate
 /// by ten of them, or by as many as it takes at least: rattling gears show 7e-14, stiff ones of 17 steps a tick 1e-12.
+/// What that makes of small elongations between fast masses, and of forces behind a gap, is in [`Growth::resolved`].
 const FRESH: f64 = 1e-13;
 
 /// Steps whose errors gather within a piece, at least; more where the second integrator takes more.
@@ -238,11 +239,13 @@ fn follow<A: Again>(
         if pieces && largest > BOUND && begun < before && growth.until(run, sizes, index) > grown {
             again.restart(&run.samples[sample - 1], before);
             taken = again.steps();
-            largest = run.deviation(sample, before, &again.advance(dt, time)?, sizes);
+            let other = again.advance(dt, time)?;
+            largest = run.deviation(sample, before, &other, sizes);
             growth.begin(run, index, &run.samples[sample - 1]);
             let fresh = FRESH * ((again.steps() - taken) as f64).max(10.0);
-            if largest > fresh && largest > fresh * growth.until(run, sizes, index) {
-                return Err(refused(largest, fresh));
+            let found = run.deviation(sample, before, &other, &growth.resolved(sizes, dt));
+            if found > fresh && found > fresh * growth.until(run, sizes, index) {
+                return Err(refused(found, fresh));
             }
             let sensitive =
                 followed.sensitive.get_or_insert(Sensitive { from: before, restarts: 0, shortest: f64::MAX });

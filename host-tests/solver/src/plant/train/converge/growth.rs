@@ -40,6 +40,22 @@ impl Growth {
         largest / SEED
     }
 
+    /// Sizes to measure the first tick of the piece by, of `dt` s: an elongation gathers what its speeds are off by, and
+    /// a force is off by what its elongation and its speeds make of it. [`Self::until`] sees none of that where all
+    /// speeds are off by the same share.
+    pub fn resolved(&self, sizes: &[f64], dt: f64) -> Vec<f64> {
+        let (n, links) = (self.motion.coordinates(), &self.motion.train.links);
+        let mut resolved = sizes.to_vec();
+        for (l, link) in links.iter().enumerate() {
+            let speed: f64 = link.terms.iter().map(|&(j, factor)| factor.abs() * sizes[j]).sum();
+            let elongation = sizes[n + l] + speed * dt;
+            let force = &mut resolved[n + links.len() + l];
+            *force = force.max(link.stiffness * elongation + link.damping * speed);
+            resolved[n + l] = elongation;
+        }
+        resolved
+    }
+
     /// A new piece, at a step, in the state of the recording.
     pub fn begin(&mut self, run: &Run, step: usize, sample: &[f64]) {
         run.steps[self.step..step].iter().for_each(|step| step.take(&mut self.motion));

@@ -15,16 +15,16 @@ fn one_of(noise: &mut Noise, share: f64) -> bool {
     0.5 * (noise.uniform() + 1.0) < share
 }
 
-/// A chain with rates of a few to 1e4 rad/s: gaps, ropes, lossy gears, dry friction, pulses, pendulums, cranks. Damping
-/// is too large by `fault`.
-fn train(noise: &mut Noise, fault: f64) -> Train {
+/// A chain with rates of a few to 1e4 rad/s: gaps, ropes, lossy gears, dry friction, pulses, pendulums, cranks. All of
+/// it turns at `turning` rad/s besides its own motion, and damping is too large by `fault`.
+fn train(noise: &mut Noise, turning: f64, fault: f64) -> Train {
     let masses = 2 + (1.5 * (noise.uniform() + 1.0)) as usize;
     let inertia: Vec<f64> = (0..masses).map(|_| between(noise, 0.05, 5.0)).collect();
     let cranked = one_of(noise, 0.25);
     let mut train = Train::new();
     for (at, inertia) in inertia.iter().enumerate() {
-        let mut coordinate =
-            Coordinate::new(*inertia).speed(if one_of(noise, 0.5) { 5.0 * noise.uniform() } else { 0.0 });
+        let own = if one_of(noise, 0.5) { 5.0 * noise.uniform() } else { 0.0 };
+        let mut coordinate = Coordinate::new(*inertia).speed(turning + own);
         coordinate = coordinate.viscous(between(noise, 0.01, 0.3) * (1.0 + fault));
         if at == 0 {
             let (torque, period) = (between(noise, 5.0, 60.0), between(noise, 0.03, 0.6));
@@ -82,8 +82,9 @@ fn train(noise: &mut Noise, fault: f64) -> Train {
 }
 
 /// The train of a number over a second, and the same with a fault; none without an event.
-fn run(number: u64, fault: f64, dt: f64) -> Option<Recording> {
-    let of = |fault: f64| train(&mut Noise::new(0x9e37_79b9_7f4a_7c15_u64.wrapping_mul(2 * number + 1)), fault);
+fn run(number: u64, turning: f64, fault: f64, dt: f64) -> Option<Recording> {
+    let noise = Noise::new(0x9e37_79b9_7f4a_7c15_u64.wrapping_mul(2 * number + 1));
+    let of = |fault: f64| train(&mut noise.clone(), turning, fault);
     of(0.0).build().ok()?;
     let run = passed_off(of(fault), of(0.0), dt, (1.0 / dt).round() as usize);
     let events = run.motion().events();
@@ -91,30 +92,36 @@ fn run(number: u64, fault: f64, dt: f64) -> Option<Recording> {
     (!events.is_empty() && is_resolved).then_some(run)
 }
 
-/// Runs of each test; of the first 315 none was refused, 54 were proven in pieces.
+/// Runs of each test; of the first 315 at rest none was refused, 54 were proven in pieces; of 306 that turn none, 84.
 const RUNS: u64 = 40;
+/// Speeds that all turn at, rad/s: small elongations between fast masses are known less closely.
+const TURNING: [f64; 2] = [0.0, 100.0];
 
 #[test]
 fn a_right_run_of_a_random_train_is_not_refused() {
     // the longer a tick, the more steps of the second integrator are in it
-    let ticks = [1e-3, 4e-3].into_iter().flat_map(|dt| (0..RUNS).map(move |number| (number, dt)));
-    let runs: Vec<Recording> = ticks.filter_map(|(number, dt)| run(number, 0.0, dt)).collect();
-    let mut pieces = 0;
-    for run in &runs {
-        let proof = prove_in_pieces(run, |_| {}).unwrap_or_else(|error| panic!("{error}: {:#?}", run.run.start.train));
-        pieces += usize::from(proof.sensitive.is_some());
+    for turning in TURNING {
+        let ticks = [1e-3, 4e-3].into_iter().flat_map(|dt| (0..RUNS).map(move |number| (number, dt)));
+        let runs: Vec<Recording> = ticks.filter_map(|(number, dt)| run(number, turning, 0.0, dt)).collect();
+        let mut pieces = 0;
+        for run in &runs {
+            let proof = prove_in_pieces(run, |_| {});
+            let proof = proof.unwrap_or_else(|error| panic!("{turning} {error}: {:#?}", run.run.start.train));
+            pieces += usize::from(proof.sensitive.is_some());
+        }
+        assert!(runs.len() > 50 && pieces > 4, "{turning} {} {pieces}", runs.len());
     }
-    assert!(runs.len() > 60 && pieces > 4, "{} {pieces}", runs.len());
 }
 
 /// A millionth too much damping moves every run by more than the bound. A hundredth of that is within it or refused:
 /// no run is called sensitive for it.
 #[test]
 fn a_wrong_run_of_a_random_train_is_refused() {
-    for (fault, within) in [(1e-6, 0), (1e-8, RUNS as usize)] {
-        let runs = (0..RUNS).filter_map(|number| run(number, fault, 1e-3));
+    let faults = [(1e-6, 0), (1e-8, RUNS as usize)];
+    for (turning, (fault, within)) in TURNING.into_iter().flat_map(|turning| faults.map(|fault| (turning, fault))) {
+        let runs = (0..RUNS).filter_map(|number| run(number, turning, fault, 1e-3));
         let proofs: Vec<Proof> = runs.filter_map(|run| prove_in_pieces(&run, |_| {}).ok()).collect();
-        assert!(proofs.len() <= within, "{fault}: {proofs:?}");
-        assert!(proofs.iter().all(|proof| proof.sensitive.is_none()), "{fault}: {proofs:?}");
+        assert!(proofs.len() <= within, "{turning} {fault}: {proofs:?}");
+        assert!(proofs.iter().all(|proof| proof.sensitive.is_none()), "{turning} {fault}: {proofs:?}");
     }
 }
