@@ -141,6 +141,11 @@ impl Link {
         self.variation.as_ref().map_or(self.stiffness, |variation| variation.bounds(self.stiffness).0)
     }
 
+    /// The elongation, at most, at which it carries a force, without its damper.
+    pub(super) fn elongation_at(&self, force: f64) -> f64 {
+        self.origin(1) + force / self.stiffest()
+    }
+
     /// Mean stiffness over time.
     pub(super) fn mean_stiffness(&self) -> f64 {
         self.variation.as_ref().map_or(self.stiffness, |variation| variation.mean(self.stiffness))

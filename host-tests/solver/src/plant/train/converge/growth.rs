@@ -25,9 +25,10 @@ impl Growth {
                 *speed += SEED * sizes[j];
             }
         }
-        if !one.settled {
-            let sizes = &sizes[one.coordinates()..];
-            other.state.elongation.iter_mut().zip(sizes).for_each(|(elongation, size)| *elongation += SEED * size);
+        for (l, elongation) in other.state.elongation.iter_mut().enumerate() {
+            let (size, force) = (sizes[one.coordinates() + l], sizes[one.coordinates() + one.links() + l]);
+            // before the first step it decides whether there is contact
+            *elongation += SEED * if one.settled { size.min(one.train.links[l].elongation_at(force)) } else { size };
         }
         let mut largest = 0.0_f64;
         for step in &run.steps[self.step..=last] {
@@ -48,10 +49,10 @@ impl Growth {
         let mut resolved = sizes.to_vec();
         for (l, link) in links.iter().enumerate() {
             let speed: f64 = link.terms.iter().map(|&(j, factor)| factor.abs() * sizes[j]).sum();
-            let elongation = sizes[n + l] + speed * dt;
             let force = &mut resolved[n + links.len() + l];
-            *force = force.max(link.stiffness * elongation + link.damping * speed);
-            resolved[n + l] = elongation;
+            let felt = sizes[n + l].min(link.elongation_at(*force)) + speed * dt;
+            *force = force.max(link.stiffest() * felt + link.damping * speed);
+            resolved[n + l] += speed * dt;
         }
         resolved
     }
