@@ -77,7 +77,9 @@ impl FileCase {
         }
         let ticks = machine.actuator.delay * f64::from(machine.control.rate_hz);
         if ticks > 1.0 {
-            return Err(format!("the torque is {ticks:.1} ticks late; a campaign has room for one tick"));
+            return Err(format!(
+                "the torque is {ticks:.1} ticks late, a campaign has one at most; the margins of `design` have them all"
+            ));
         }
         let shafts = machine.chain.shafts();
         let softest = shafts.iter().enumerate().min_by(|a, b| a.1.stiffness.total_cmp(&b.1.stiffness));

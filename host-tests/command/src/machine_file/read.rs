@@ -108,9 +108,9 @@ fn parse_up_to(name: &str, text: &str, most: usize, for_drive: bool) -> Result<M
     let error = train.as_ref().map_or(chain.error(), |train| train.error());
     let long = error.and_then(|_| Long::of(&elements, &branches));
     let missing: Vec<&str> = SETTINGS.into_iter().filter(|key| !root.has(key)).collect();
-    if for_drive && missing.len() > 1 {
-        let tables = missing.join("], [");
-        let expected = format!("the tables [{tables}], as the file of `cargo driveline example roll` has them");
+    if for_drive && !missing.is_empty() {
+        let (tables, plural) = (missing.join("], ["), if missing.len() > 1 { "tables" } else { "table" });
+        let expected = format!("the {plural} [{tables}], as in the file of `cargo driveline example roll`");
         return Err(root.wrong(missing[0], expected));
     }
     // the largest speed ends the running range where the file has none

@@ -20,7 +20,7 @@ fn rows(heading: &str) -> BTreeSet<String> {
 
 /// Makes a file of an example by a change with `sed`, and gives it to a command.
 const PROVOKED: [(&str, &str); 20] = [
-    ("the tables [encoder], … as the file of", "sed '/^.encoder/,$d' roll.toml > m.toml; design m.toml"),
+    ("the table … as in the file of", "sed '/^.disturbance/,/^$/d' roll.toml > m.toml; design m.toml"),
     ("found an unknown key, expected only", "sed 's/damping/dampng/' roll.toml > m.toml; modes m.toml"),
     ("expected a number, 1e-12 to 1e12", "sed 's/= 0.48/= -0.48/' roll.toml > m.toml; modes m.toml"),
     ("a table [run]", "simulate roll.toml"),
