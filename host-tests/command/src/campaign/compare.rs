@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 use super::figure::{Figure, Outcome};
 use super::record::Settings;
@@ -22,25 +22,15 @@ pub struct Ratio {
     /// The second's.
     pub second: (f64, f64),
     /// Median of the ratios.
-    #[serde(serialize_with = "finite_or_word")]
     pub median: f64,
     /// Nine ratios of ten are not worse.
-    #[serde(serialize_with = "finite_or_word")]
     pub p90: f64,
-    #[serde(serialize_with = "finite_or_word")]
     pub worst: f64,
     pub worst_draw: u64,
     /// Share of the draws with a ratio in which the first drive is not worse than the second.
     pub not_worse: f64,
     /// Draws without a ratio: where nothing swings, or where the peak has no dynamic part.
     pub none: u64,
-}
-
-/// Of a decay beside a swing that does not decay. JSON has no number for it.
-const INFINITE: &str = "infinite";
-
-fn finite_or_word<S: Serializer>(ratio: &f64, to: S) -> Result<S::Ok, S::Error> {
-    if *ratio == f64::INFINITY { to.serialize_str(INFINITE) } else { to.serialize_f64(*ratio) }
 }
 
 /// Two campaigns over the same draws.
@@ -145,7 +135,8 @@ impl Comparison {
             "no ratio",
         ]);
         for r in &self.ratios {
-            let ratio = |ratio: f64| if ratio == f64::INFINITY { INFINITE.to_owned() } else { significant(ratio) };
+            // of a decay beside a swing that does not decay
+            let ratio = |ratio: f64| if ratio == f64::INFINITY { "infinite".to_owned() } else { significant(ratio) };
             let [median, p90, worst] = [r.median, r.p90, r.worst].map(ratio);
             let text = |value: f64| if r.unit.is_empty() { percent(value) } else { significant(value) };
             let [first, second] = [r.first, r.second].map(|(median, p90)| format!("{}, {}", text(median), text(p90)));

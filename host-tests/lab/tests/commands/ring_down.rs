@@ -194,6 +194,6 @@ fn an_infinite_ratio_is_a_word() {
     let compared = run(&["compare", "two-mass", "rigid", "--json"]);
     let compared: serde_json::Value = serde_json::from_str(&compared).unwrap();
     let decay = compared["ratios"].as_array().unwrap().iter().find(|ratio| ratio["name"] == Figure::RingDown.name());
-    assert_eq!(decay.unwrap()["median"], "infinite");
+    assert!(decay.unwrap()["median"].is_null());
     assert!(run(&["compare", "two-mass", "rigid"]).contains("infinite"));
 }
