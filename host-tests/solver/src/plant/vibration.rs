@@ -27,6 +27,8 @@ mod elimination;
 mod number;
 mod undamped;
 
+use std::collections::BTreeMap;
+
 use nalgebra::Complex;
 
 use super::train::Elimination as Rank;
@@ -149,9 +151,29 @@ impl Network {
         self.size() - Rank::of(rows, self.size()).rank()
     }
 
-    /// The same with the shafts that have an inertia cut into pieces that are short at a frequency (rad/s).
+    /// Adds a link, to the stiffness and damping of one that strains with it if there is one: a loop of two would leave
+    /// the roundings of their stiffness in the equations of a slow decay. Places of links by their coordinates.
+    fn beside(&mut self, link: &Spring, places: &mut BTreeMap<Vec<usize>, usize>) {
+        let mut terms = link.terms.clone();
+        terms.sort_by_key(|term| term.0);
+        let place = *places.entry(terms.iter().map(|term| term.0).collect()).or_insert(self.links.len());
+        if let Some(other) = self.links.get_mut(place).filter(|other| other.inertia + link.inertia == 0.0)
+            && let (Some(&(_, ours)), Some(&(_, theirs))) = (terms.first(), other.terms.first())
+            && terms.iter().zip(&other.terms).all(|(one, two)| one.1 * theirs == two.1 * ours)
+        {
+            let share = (ours / theirs).powi(2);
+            other.stiffness += share * link.stiffness;
+            other.damping += share * link.damping;
+            return;
+        }
+        self.links.push(Spring { terms, ..link.clone() });
+    }
+
+    /// The same with the shafts that have an inertia cut into pieces that are short at a frequency (rad/s), and links
+    /// side by side as one.
     fn cut(&self, omega: f64) -> Self {
         let mut cut = Self { coordinates: self.coordinates.clone(), links: Vec::new() };
+        let mut places = BTreeMap::new();
         for link in &self.links {
             let pieces = (link.angle(omega) / PIECE).ceil().max(1.0);
             let piece = Spring {
@@ -162,7 +184,7 @@ impl Network {
             };
             let [first, last] = [link.terms.first(), link.terms.get(1)];
             if pieces == 1.0 {
-                cut.links.push(link.clone());
+                cut.beside(link, &mut places);
                 continue;
             }
             let mut near: Vec<(usize, f64)> = first.into_iter().copied().collect();

@@ -197,3 +197,25 @@ fn a_long_chain_has_every_frequency() {
     let expected = (4.0 * (1e6 + 1e-6_f64)).sqrt();
     assert!((far.modes(1).omega[0] / expected - 1.0).abs() < 1e-15, "{:?}", far.modes(1));
 }
+
+/// Two masses on three shafts side by side that one of them drags: the slow decay is that of both on the drag, as a
+/// computation in 50 digits has it, with any order of the terms.
+#[test]
+fn shafts_side_by_side_leave_no_rounding_in_a_slow_decay() {
+    let mut network = Network::default();
+    network.coordinate(0.171_733_305_681_194_71, 0.0);
+    network.coordinate(2.444_990_126_389_699_4, 0.257_042_271_785_849_76);
+    network.link(Spring::shaft(0, 1, 44_201.101_500_684_1));
+    network.link(Spring::shaft(1, 0, 1_017.646_462_974_432_2).damping(0.257_132_513_558_709_03));
+    network.link(
+        Spring::new(&[(1, 2.0), (0, -2.0)], 0.25 * 89.037_153_146_047_84).damping(0.25 * 0.482_078_639_094_214_4),
+    );
+    let decays = network.decays(&network.modes(8)).unwrap();
+    let expected = [(0.098_230_584_574_8, 0.0), (2.306_825_067_51, 531.368_022_319)];
+    assert_eq!(decays.len(), expected.len());
+    for (found, (decay, omega)) in decays.iter().zip(expected) {
+        // to the twelve digits that were written down
+        assert!((found.decay - decay).abs() < 2e-12 * decay.hypot(omega), "{found:?}");
+        assert!((found.omega - omega).abs() <= 2e-12 * omega, "{found:?}");
+    }
+}
