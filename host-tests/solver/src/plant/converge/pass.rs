@@ -7,8 +7,10 @@ use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
 
 use super::proof::NotProven;
 
-/// Relative tolerance of the integrator; a run of 1e5 steps may gather 1e-8 of it at the very worst.
+/// Tolerance of the integrator, of the sizes of the states; a run of 1e5 steps may gather 1e-8 of it at the very worst.
 const TOLERANCE: f64 = 1e-13;
+/// The same of a state itself: its rounding.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// A guard below this share of its size has fallen.
 const FALLEN: f64 = 1e-12;
 /// Share of a step over which rates of guards are taken; the rounding of a guard is a 1e-13th of its size then.
@@ -109,7 +111,7 @@ impl<C: Copy> Pass<C> {
 
     fn begin<H: Hybrid<Change = C>>(&self, machine: &H, y: &Vec<f64>, t: f64, h: f64) -> Result<Dop853, NotProven> {
         let tolerance = self.tolerance.clone();
-        let mut method = ExplicitRungeKutta::dop853().rtol(TOLERANCE).atol(tolerance).max_steps(usize::MAX).h0(h);
+        let mut method = ExplicitRungeKutta::dop853().rtol(ROUNDING).atol(tolerance).max_steps(usize::MAX).h0(h);
         let begun = method.init(&Onward { machine, origin: t }, 0.0, f64::MAX, y);
         begun.map_err(|e| NotProven::Integrator { time: t, reason: format!("{e:?}") })?;
         Ok(method)

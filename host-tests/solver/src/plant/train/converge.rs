@@ -341,11 +341,19 @@ impl<'a> Integrator<'a> {
         let (n, links) = (motion.coordinates(), motion.links());
         let state = &motion.state;
         let y: Vec<f64> = state.elongation.iter().chain(&state.speed).chain(&state.angle).copied().collect();
-        let or_one = |size: f64| if size > 0.0 { size } else { 1.0 };
         // a rope that flies open is as long as its way, and pulls within hundredths of it
         let felt = |l: usize| peaks[n + l].min(motion.train.links[l].elongation_at(peaks[n + links + l]));
-        let moved = peaks[..n].iter().chain(&peaks[n + 2 * links..]).copied();
-        let scale: Vec<f64> = (0..links).map(felt).chain(moved).map(or_one).collect();
+        let mut scale: Vec<f64> = (0..links).map(felt).chain(peaks[..n].iter().copied()).collect();
+        // masses on a stiff link may turn a million times as fast as they swing
+        for (l, link) in motion.train.links.iter().enumerate() {
+            let inverse: f64 = link.terms.iter().map(|&(j, factor)| factor * factor / motion.inertia(j)).sum();
+            let swing = felt(l) * (link.stiffest() * inverse).sqrt();
+            for &(j, _) in link.terms.iter().filter(|_| swing > 0.0) {
+                scale[links + j] = scale[links + j].min(swing);
+            }
+        }
+        scale.extend_from_slice(&peaks[n + 2 * links..]);
+        scale.iter_mut().filter(|size| **size <= 0.0).for_each(|size| *size = 1.0);
         let rate = motion.rate + turning(motion, &peaks[..n]);
         let pass = Pass::new(&scale, REACH / rate.max(1e-3), 0.1 * motion.event_tolerance);
         let double = Double::new(motion.train.clone(), motion.held.clone(), &motion.mode.arcs, &peaks[..n]);
