@@ -341,13 +341,12 @@ impl<'a> Integrator<'a> {
         let (n, links) = (motion.coordinates(), motion.links());
         let state = &motion.state;
         let y: Vec<f64> = state.elongation.iter().chain(&state.speed).chain(&state.angle).copied().collect();
-        // a rope that flies open is as long as its way, and pulls within hundredths of it
-        let felt = |l: usize| peaks[n + l].min(motion.train.links[l].elongation_at(peaks[n + links + l]));
-        let mut scale: Vec<f64> = (0..links).map(felt).chain(peaks[..n].iter().copied()).collect();
+        let felt: Vec<f64> = (0..links).map(|l| felt(motion, peaks, l)).collect();
+        let mut scale: Vec<f64> = felt.iter().chain(&peaks[..n]).copied().collect();
         // masses on a stiff link may turn a million times as fast as they swing
         for (l, link) in motion.train.links.iter().enumerate() {
             let inverse: f64 = link.terms.iter().map(|&(j, factor)| factor * factor / motion.inertia(j)).sum();
-            let swing = felt(l) * (link.stiffest() * inverse).sqrt();
+            let swing = felt[l] * (link.stiffest() * inverse).sqrt();
             for &(j, _) in link.terms.iter().filter(|_| swing > 0.0) {
                 scale[links + j] = scale[links + j].min(swing);
             }
@@ -452,6 +451,13 @@ fn peaks(run: &Run) -> Vec<f64> {
         }
     }
     peaks
+}
+
+/// The elongation, at most, at which a link carries its force: a rope that flies open is as long as its way, and pulls
+/// within hundredths of it.
+fn felt(motion: &Motion, peaks: &[f64], l: usize) -> f64 {
+    let (n, links) = (motion.coordinates(), &motion.train.links);
+    peaks[n + l].min(links[l].elongation_at(peaks[n + links.len() + l]))
 }
 
 /// What a deviation is a share of: the peak of each quantity; of the angle of what turns freely at least the way that

@@ -1,6 +1,6 @@
 //! How a small difference grows within a piece of a run, as the solver shows that runs it twice.
 
-use super::{Motion, Run, Step, sample, state};
+use super::{Motion, Run, Step, felt, sample, state};
 
 /// The solver where a piece begins.
 pub(super) struct Growth {
@@ -25,10 +25,9 @@ impl Growth {
                 *speed += SEED * sizes[j];
             }
         }
-        for (l, elongation) in other.state.elongation.iter_mut().enumerate() {
-            let (size, force) = (sizes[one.coordinates() + l], sizes[one.coordinates() + one.links() + l]);
-            // before the first step it decides whether there is contact
-            *elongation += SEED * if one.settled { size.min(one.train.links[l].elongation_at(force)) } else { size };
+        if !one.settled {
+            let sizes = &sizes[one.coordinates()..];
+            other.state.elongation.iter_mut().zip(sizes).for_each(|(elongation, size)| *elongation += SEED * size);
         }
         let mut largest = 0.0_f64;
         for step in &run.steps[self.step..=last] {
@@ -50,8 +49,8 @@ impl Growth {
         for (l, link) in links.iter().enumerate() {
             let speed: f64 = link.terms.iter().map(|&(j, factor)| factor.abs() * sizes[j]).sum();
             let force = &mut resolved[n + links.len() + l];
-            let felt = sizes[n + l].min(link.elongation_at(*force)) + speed * dt;
-            *force = force.max(link.stiffest() * felt + link.damping * speed);
+            let elongation = felt(&self.motion, sizes, l) + speed * dt;
+            *force = force.max(link.stiffest() * elongation + link.damping * speed);
             resolved[n + l] += speed * dt;
         }
         resolved

@@ -92,9 +92,9 @@ fn run(number: u64, turning: f64, fault: f64, dt: f64) -> Option<Recording> {
     (!events.is_empty() && is_resolved).then_some(run)
 }
 
-/// Runs of each test; of the first 315 at rest none was refused, 54 were proven in pieces; of 306 that turn none, 84.
+/// Runs of each test; of 364 at rest none was refused, 56 were proven in pieces; of 306 that turn none, 75.
 const RUNS: u64 = 40;
-/// Speeds that all turn at, rad/s: small elongations between fast masses are known less closely.
+/// Speeds that all turn at, rad/s: a rounding of them is a large share of a small elongation.
 const TURNING: [f64; 2] = [0.0, 100.0];
 
 #[test]
@@ -109,7 +109,9 @@ fn a_right_run_of_a_random_train_is_not_refused() {
             let proof = proof.unwrap_or_else(|error| panic!("{turning} {error}: {:#?}", run.run.start.train));
             pieces += usize::from(proof.sensitive.is_some());
         }
-        assert!(runs.len() > 50 && pieces > 4, "{turning} {} {pieces}", runs.len());
+        // fewer have an event where all turn
+        let least = if turning == 0.0 { 60 } else { 50 };
+        assert!(runs.len() > least && pieces > 4, "{turning} {} {pieces}", runs.len());
     }
 }
 
