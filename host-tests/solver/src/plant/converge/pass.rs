@@ -31,6 +31,9 @@ pub(in crate::plant) trait Hybrid {
     /// Guards that must stay above zero: value, size to measure its rounding by, and what its fall means.
     fn guards(&self, t: f64, y: &[f64]) -> Vec<(f64, f64, Self::Change)>;
 
+    /// The fastest rate, 1/s, at which anything swings with what turns, as fast as it turns now.
+    fn turning(&self, y: &[f64]) -> f64;
+
     /// Does what a fallen guard stands for.
     fn change(&mut self, t: f64, y: &mut [f64], change: Self::Change);
 }
@@ -53,7 +56,7 @@ type Dop853 = ExplicitRungeKutta<Ordinary, DormandPrince, f64, Vec<f64>, 8, 12, 
 pub(in crate::plant) struct Pass<C> {
     /// Errors that a step may have, per state.
     tolerance: Vec<f64>,
-    /// Longest step, s.
+    /// Longest step at rest, s; shorter the faster what turns does.
     pub longest: f64,
     /// An event is found within this time, s.
     close: f64,
@@ -83,6 +86,11 @@ impl<C: Copy> Pass<C> {
     /// Begins anew: state or equations are not those of the last call's end.
     pub fn anew(&mut self) {
         self.live = None;
+    }
+
+    /// The step that is wanted from a state on, s.
+    fn wanted<H: Hybrid<Change = C>>(&self, machine: &H, y: &[f64]) -> f64 {
+        self.step.min(REACH / (REACH / self.longest + machine.turning(y)))
     }
 
     /// From corner to corner, through all events between them; on from the last call, unless begun anew.
@@ -135,14 +143,14 @@ impl<C: Copy> Pass<C> {
                 method: self.begin(machine, y, t, self.step)?,
                 origin: t,
                 last: 0.0,
-                look: Look::of(machine, t, y, SPAN * self.step.min(self.longest).min(to - t)),
+                look: Look::of(machine, t, y, SPAN * self.wanted(machine, y).min(to - t)),
             },
         };
         let (method, origin) = (&mut live.method, live.origin);
         while to - (origin + method.t()) > 1e-14 * (to - t) {
             let now = origin + method.t();
             let whole = to - now;
-            let wanted = self.step.min(self.longest);
+            let wanted = self.wanted(machine, method.y());
             method.set_h(wanted.min(whole));
             let before = method.t();
             let taken = method.step(&Onward { machine, origin });

@@ -28,12 +28,8 @@ mod textbook;
 
 pub use crate::plant::converge::{BOUND, Deviation, NotProven, Proof, Sensitive};
 
-use super::Coordinate;
-use super::linkage::Orders;
-use super::mesh::Harmonic;
 use super::motion::Motion;
 use super::rank::Elimination;
-use super::source::Source;
 use super::state::{Mode, State};
 use crate::plant::converge::pass::{Pass, REACH};
 use growth::Growth;
@@ -353,8 +349,7 @@ impl<'a> Integrator<'a> {
         }
         scale.extend_from_slice(&peaks[n + 2 * links..]);
         scale.iter_mut().filter(|size| **size <= 0.0).for_each(|size| *size = 1.0);
-        let rate = motion.rate + turning(motion, &peaks[..n]);
-        let pass = Pass::new(&scale, REACH / rate.max(1e-3), 0.1 * motion.event_tolerance);
+        let pass = Pass::new(&scale, REACH / motion.rate.max(1e-3), 0.1 * motion.event_tolerance);
         let double = Double::new(motion.train.clone(), motion.held.clone(), &motion.mode.arcs, &peaks[..n]);
         Self { start: motion, before: double.clone(), double, y, pass, now: motion.now }
     }
@@ -422,27 +417,6 @@ impl Again for Integrator<'_> {
     }
 }
 
-/// The fastest rate, 1/s, at which torques swing with the angles: order times peak speed. An order of a millionth of
-/// the largest turns nothing.
-fn turning(motion: &Motion, speeds: &[f64]) -> f64 {
-    let of_orders = |orders: &[Harmonic]| {
-        let most = orders.iter().map(|h| h.cosine.hypot(h.sine)).fold(0.0, f64::max);
-        let felt = orders.iter().filter(|h| h.cosine.hypot(h.sine) > 1e-6 * most);
-        felt.map(|h| h.order.abs()).fold(0.0, f64::max)
-    };
-    let highest = |source: &Source| match source {
-        Source::Orders(orders) | Source::Stroke { torque: Orders(orders), .. } => of_orders(orders),
-        _ => 0.0,
-    };
-    // second and higher orders of the way of the slider or rocker load the pins
-    let pinned = |c: &Coordinate| {
-        let rod = c.pins.as_ref().and(c.crank).map_or(0.0, |k| 2.0 / (1.0 - (k.radius / k.rod).powi(2)).sqrt());
-        c.pins.iter().flat_map(|pinned| pinned.orders()).map(|orders| of_orders(&orders.0)).fold(rod, f64::max)
-    };
-    let coordinates = motion.train.coordinates.iter().zip(speeds);
-    coordinates.map(|(c, speed)| speed * c.sources.iter().map(highest).fold(pinned(c), f64::max)).fold(0.0, f64::max)
-}
-
 fn peaks(run: &Run) -> Vec<f64> {
     let mut peaks = vec![0.0_f64; run.samples.first().map_or(0, Vec::len)];
     for sample in &run.samples {
@@ -506,7 +480,7 @@ impl Run {
 mod tests {
     use crate::plant::LoadProgram;
     use crate::plant::train::converge::*;
-    use crate::plant::train::{Coordinate, Link, Train};
+    use crate::plant::train::{Coordinate, Harmonic, Link, Source, Train};
 
     /// A mass swings on a rope by 1e-4 rad and is then pulled away by 1000 rad: what the rope has carried is known by
     /// the elongations at which it did.
@@ -522,6 +496,26 @@ mod tests {
         assert!(run.run.samples.iter().any(|sample| sample[2] > 0.05) && run.run.fired > 0);
         let proof = prove(&run).unwrap();
         assert!(proof.largest() < 1e-11, "{proof:?}");
+    }
+
+    /// A mass that turns slowly for 20 s and then a hundred thousand times as fast for 10 ms: steps are short only then.
+    #[test]
+    fn steps_are_as_short_as_what_turns_needs_then() {
+        let push = Source::Program(LoadProgram::steps(&[(0.0, 0.0), (20.0, 1e8)]));
+        let swing = Source::Orders(vec![Harmonic { order: 2.0, cosine: 0.5, sine: 0.0 }]);
+        let mass = Coordinate::new(1.0).speed(10.0).source(push).source(swing);
+        let mut run = Recording::new(Train::new().coordinate(mass).build().unwrap());
+        for _ in 0..2001 {
+            run.advance(1e-2);
+        }
+        let peaks = peaks(&run.run);
+        let mut again = Integrator::of(&run.run, &peaks);
+        for &time in &run.run.times {
+            again.advance(1e-2, time).unwrap();
+        }
+        // a radian of order 2 a step; 400 rad slowly and 5000 rad fast, and what begins anew
+        assert!(peaks[0] > 9e5 && (10_000..40_000).contains(&again.steps()), "{} {}", peaks[0], again.steps());
+        assert!(prove(&run).unwrap().largest() < BOUND);
     }
 
     /// A ball between two walls a little apart, pushed back and forth: its impacts forget where it came from. Pieces

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::super::pins::Pinning;
 use super::super::rigid_gear::Flow;
-use super::super::{Source, Train, Variation};
+use super::super::{Coordinate, Harmonic, Orders, Source, Train, Variation};
 use super::Step;
 use crate::plant::converge::pass::Hybrid;
 
@@ -52,6 +52,8 @@ pub struct Double {
     /// Links whose teeth follow an angle, and the edge ahead of each.
     teeth: Vec<(usize, i64)>,
     pub settled: bool,
+    /// The highest order of what swings with the angle of each coordinate.
+    orders: Vec<f64>,
     /// Peak speed of each coordinate in the run.
     peak: Vec<f64>,
     /// Whether the discrete state is another one than when this was last cleared.
@@ -74,6 +76,7 @@ impl Double {
             gears: super::super::motion::gears_of(&train),
             pins: super::super::motion::pins_of(&train),
             teeth: super::super::motion::teeth_of(&train),
+            orders: train.coordinates.iter().map(highest_order).collect(),
             held,
             settled: false,
             peak: peak.to_vec(),
@@ -496,8 +499,31 @@ impl Double {
     }
 }
 
+/// The highest order at which torques swing with an angle. An order of a millionth of the largest turns nothing.
+fn highest_order(coordinate: &Coordinate) -> f64 {
+    let of_orders = |orders: &[Harmonic]| {
+        let most = orders.iter().map(|h| h.cosine.hypot(h.sine)).fold(0.0, f64::max);
+        let felt = orders.iter().filter(|h| h.cosine.hypot(h.sine) > 1e-6 * most);
+        felt.map(|h| h.order.abs()).fold(0.0, f64::max)
+    };
+    let highest = |source: &Source| match source {
+        Source::Orders(orders) | Source::Stroke { torque: Orders(orders), .. } => of_orders(orders),
+        _ => 0.0,
+    };
+    // second and higher orders of the way of the slider or rocker load the pins
+    let crank = coordinate.pins.as_ref().and(coordinate.crank);
+    let rod = crank.map_or(0.0, |k| 2.0 / (1.0 - (k.radius / k.rod).powi(2)).sqrt());
+    let pinned = coordinate.pins.iter().flat_map(|pinned| pinned.orders()).map(|orders| of_orders(&orders.0));
+    coordinate.sources.iter().map(highest).chain(pinned).fold(rod, f64::max)
+}
+
 impl Hybrid for Double {
     type Change = Change;
+
+    fn turning(&self, y: &[f64]) -> f64 {
+        let rates = self.orders.iter().enumerate().map(|(j, order)| order * self.speed(y, j).abs());
+        rates.fold(0.0, f64::max)
+    }
 
     fn rate(&self, t: f64, y: &[f64], out: &mut [f64]) {
         let (links, n) = (self.train.links.len(), self.train.coordinates.len());
