@@ -87,7 +87,13 @@ impl Eigenvalues for Complex<f64> {
 
 /// Inner product, the first one conjugate.
 fn inner<T: ComplexField + Copy>(a: &[T], b: &[T]) -> T {
-    a.iter().zip(b).fold(T::zero(), |sum, (&a, &b)| sum + a.conjugate() * b)
+    // four sums, of which none waits for another
+    let (mut sums, whole) = ([T::zero(); 4], a.len() - a.len() % 4);
+    for (a, b) in a.chunks_exact(4).zip(b.chunks_exact(4)) {
+        sums.iter_mut().zip(a.iter().zip(b)).for_each(|(sum, (a, &b))| *sum += a.conjugate() * b);
+    }
+    let rest = a[whole..].iter().zip(&b[whole..]).fold(T::zero(), |sum, (a, &b)| sum + a.conjugate() * b);
+    sums.into_iter().fold(rest, |sum, part| sum + part)
 }
 
 fn length<T: ComplexField<RealField = f64> + Copy>(a: &[T]) -> f64 {
@@ -225,13 +231,19 @@ impl<T: Eigenvalues> Pencil<'_, T> {
                 .filter(|value| value.norm() > 0.0)
                 .map(|value| value.inv())
                 .collect();
-            let chosen = wanted(&values, last);
-            let found = chosen.into_iter().flatten().map(|k| (values[k], basis.vector(&matrix, values[k].inv(), k)));
-            let found: Vec<_> = found.collect();
-            let settled = |(value, pair): &(Complex<f64>, Option<(Vec<Complex<f64>>, f64)>)| {
-                pair.as_ref().is_some_and(|(_, out)| out * value.norm() <= CONVERGED)
-            };
-            if last || !found.is_empty() && found.iter().all(settled) {
+            let mut chosen = wanted(&values, last).unwrap_or_default();
+            // the largest settle last
+            chosen.sort_by(|&a, &b| values[b].norm().total_cmp(&values[a].norm()));
+            let (mut found, mut settled) = (Vec::new(), !chosen.is_empty());
+            for &k in &chosen {
+                if !(last || settled) {
+                    break;
+                }
+                let pair = basis.vector(&matrix, values[k].inv(), k);
+                settled &= pair.as_ref().is_some_and(|(_, out)| out * values[k].norm() <= CONVERGED);
+                found.push((values[k], pair));
+            }
+            if last || settled {
                 let complex = self.spring();
                 let complex = Band::new(n, half, |i, j| complex.get(i, j).complex()).positive();
                 let refined = found.into_iter().map(|(value, pair)| {
