@@ -86,7 +86,7 @@ mod two_mass;
 
 pub use angle::{AngleTracker, Prediction};
 pub use backlash::{BacklashConfig, BacklashObserver, Contact, FreeFlight, Gap, GapCorrection};
-pub use force_limit::ForceLimitConfig;
+pub use force_limit::{ForceLimit, ForceLimitConfig};
 pub use geared::{GearFriction, GearedConfig, GearedObserver, Stiction};
 pub use load_gear::{LoadGearConfig, LoadGearObserver};
 pub use mechanism::{MechanismConfig, MechanismObserver, TABLE_POINTS, TablePoint, Tool, ToolObserver};

@@ -4,7 +4,7 @@ use super::Error;
 use super::constants::constants;
 use crate::angle::RotorAngleConfig;
 use crate::design::MechanismDesign;
-use crate::machine::{DrivenMechanism, MECHANISM_POINTS};
+use crate::machine::MECHANISM_POINTS;
 use crate::observer::{ForceLimitConfig, MechanismConfig, RigidConfig, TABLE_POINTS, TablePoint, Tool};
 
 const GEAR: &str =
@@ -106,15 +106,17 @@ const FORCE: &str = "the limit of the tool's force and its idle torque must be n
 constants! {
     /// [`Error::Value`] for a mechanism without a tool, a torque beyond its number, or a least leverage that is not
     /// positive.
-    impl[] ForceLimitConfig[], new, try_new(machine: &DrivenMechanism, force: f64, idle: f64, least: f64), |format| {
-        let full = force * machine.most_leverage() / format.bases.torque;
+    impl[] ForceLimitConfig[], new, try_new(design: &MechanismDesign, force: f64, idle: f64, least: f64), |format| {
+        let full = force * design.machine.most_leverage() / format.bases.torque;
         if !(full > 0.0 && least > 0.0) {
             return Err(Error::Value(FORCE));
         }
+        let lag = 3.0 * design.load_delay();
         Ok(ForceLimitConfig {
             torque: get!(To::exactly(full, FORCE)),
             idle: get!(To::exactly(idle / format.bases.torque, FORCE)),
             least: get!(To::exactly(least, FORCE)),
+            lead: get!(To::coefficients([0.25, design.rigid.period / lag], FORCE)),
         })
     }
 }

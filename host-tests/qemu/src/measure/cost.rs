@@ -129,6 +129,7 @@ pub const BENCHES: &[&str] = &[
     "bench/phasor/1",
     "bench/phasor/2",
     "bench/step/mechanism",
+    "bench/step/force-limit",
     "bench/step/backlash",
     "bench/drive/backlash",
     "bench/balance/least-squares",
