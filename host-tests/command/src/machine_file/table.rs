@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::{DeString, DeTable, DeValue};
 
 use super::diagnostic::Diagnostic;
 use super::quantity::Quantity;
@@ -44,7 +44,23 @@ impl<'a> Table<'a> {
     }
 
     fn missing(&self, key: &str, expected: impl std::fmt::Display) -> Diagnostic {
-        Diagnostic::at(self.source, self.place.clone(), self.name(key), "nothing", format!("`{key}`: {expected}"))
+        let expected = format!("`{key}`: {expected}");
+        let alike = |name: &str| {
+            let near = if key.len() > 4 { 2 } else { 1 };
+            let begun = name.len() > 2 && key.starts_with(name);
+            key.len() > 2 && (begun || strsim::damerau_levenshtein(name, key) <= near)
+        };
+        let misspelt = |name: &&Spanned<DeString<'_>>| {
+            let name: &str = name.get_ref();
+            !self.asked.contains(&name) && alike(name)
+        };
+        match self.table.keys().find(misspelt) {
+            Some(name) => {
+                let found = format!("`{}`", printable(name.get_ref(), REPEATED));
+                Diagnostic::at(self.source, name.span(), self.name(key), found, expected)
+            }
+            None => Diagnostic::at(self.source, self.place.clone(), self.name(key), "nothing", expected),
+        }
     }
 
     /// The diagnostic for a key's value that is not what was expected.
@@ -174,7 +190,7 @@ impl<'a> Table<'a> {
 
     /// A key that is there leaves no place for others, which say the same in another way.
     pub fn instead_of(&self, key: &str, others: &[&str]) -> Result<(), Diagnostic> {
-        let there = |(name, value): (&Spanned<toml::de::DeString<'_>>, &Spanned<DeValue<'_>>)| {
+        let there = |(name, value): (&Spanned<DeString<'_>>, &Spanned<DeValue<'_>>)| {
             let other = others.iter().find(|other| name.get_ref() == **other)?;
             let found = format!("`{key}` beside it");
             Some(Diagnostic::at(self.source, value.span(), self.name(other), found, "only one of the two"))
@@ -319,7 +335,7 @@ impl<'a> Table<'a> {
 
     /// Ends the reading: an unknown key is a fault.
     pub fn finish(self) -> Result<(), Diagnostic> {
-        let unknown = |name: &&Spanned<toml::de::DeString<'_>>| !self.asked.contains(&name.get_ref().as_ref());
+        let unknown = |name: &&Spanned<DeString<'_>>| !self.asked.contains(&name.get_ref().as_ref());
         let Some(first) = self.table.keys().filter(unknown).min_by_key(|name| name.span().start) else {
             return Ok(());
         };
@@ -331,7 +347,10 @@ impl<'a> Table<'a> {
                 known.push(key);
             }
         }
-        let expected = format!("only {}", known.join(", "));
+        // TOML takes what follows a heading for a key of its table
+        let stray =
+            if key == "name" && !self.path.is_empty() { "; the file's own `name` is its first line" } else { "" };
+        let expected = format!("only {}{stray}", known.join(", "));
         Err(Diagnostic::at(self.source, first.span(), self.name(&key), "an unknown key", expected))
     }
 }
