@@ -78,7 +78,7 @@ impl FileCase {
         let ticks = machine.actuator.delay * f64::from(machine.control.rate_hz);
         if ticks > 1.0 {
             return Err(format!(
-                "the torque is {ticks:.1} ticks late, a campaign has one at most; the margins of `design` have them all"
+                "the torque is {ticks:.1} ticks late, a campaign has one at most; `design` counts them all"
             ));
         }
         let shafts = machine.chain.shafts();

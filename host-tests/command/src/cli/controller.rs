@@ -418,8 +418,9 @@ impl Plan {
         let speed = machine.limits.speed;
         if !machine.rating().is_within(machine.chain.masses()[0], Rating::PERIPHERAL_SPEED) {
             self.warnings.push(format!(
-                "`limits.speed`, {} rad/s, is too fast for a rotor of the motor's inertia: r/min are expected as {}",
+                "`limits.speed`, {0} rad/s, is too fast for a rotor of the motor's inertia, {1} kg m²: {0} r/min are {2} rad/s",
                 significant(speed),
+                significant(machine.chain.masses()[0]),
                 significant(speed * core::f64::consts::TAU / 60.0)
             ));
         }

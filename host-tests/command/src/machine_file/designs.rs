@@ -178,7 +178,7 @@ impl fmt::Display for Lack {
         match self.remedy {
             Some(remedy) => {
                 let observer = if self.is_of_two { "the observer of two masses" } else { "it" };
-                write!(f, "{}: {remedy} {observer} has them all", self.cause)
+                write!(f, "{}: {remedy} {observer} has all margins", self.cause)
             }
             None if self.is_tried => write!(
                 f,

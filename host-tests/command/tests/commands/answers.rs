@@ -369,8 +369,8 @@ fn the_mode_that_is_kept_is_named() {
 #[test]
 fn a_remedy_of_the_design_works() {
     let remedies = [
-        ("with `bandwidth = ", "` in `[speed_loop]` it has them all"),
-        ("with `within = ", "` in `[disturbance]`, a faster observer, it has them all"),
+        ("with `bandwidth = ", "` in `[speed_loop]` it has all margins"),
+        ("with `within = ", "` in `[disturbance]`, a faster observer, it has all margins"),
     ];
     let mut tried = [0; 2];
     let lack = |text: &str| {

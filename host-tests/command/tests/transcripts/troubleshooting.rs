@@ -27,11 +27,11 @@ const PROVOKED: [(&str, &str); 20] = [
     ("the sample rate cannot follow the shaft", "sed 's/2.0e4/2.0e8/' roll.toml > m.toml; design m.toml"),
     ("the speed loop is unstable at this sample rate", "sed 's/= 10000/= 200/' roll.toml > m.toml; design m.toml"),
     (
-        "the speed loop lacks margins: … it has them all",
+        "the speed loop lacks margins: … it has all margins",
         "{ cat mill.toml; echo '[speed_loop]'; echo 'bandwidth = 0.7'; } > m.toml; design m.toml",
     ),
     (
-        "the observer of two masses has them all",
+        "the observer of two masses has all margins",
         "{ cat roll.toml; echo '[actuator]'; echo 'delay = 0.001'; } > m.toml; design m.toml",
     ),
     (

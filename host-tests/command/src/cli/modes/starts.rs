@@ -115,8 +115,8 @@ pub fn table(starts: &Starts) -> Section {
         starts.slew.iter().map(|&[factor, slew]| format!("{} for {factor}", significant(slew))).collect();
     let text = format!(
         "Largest shaft torque over that of a slow change, of two masses at {} Hz without damping; a step has 2. Slew of \
-         a change by the torque limit, N m/s for an allowed factor: {}. A reversal at the torque limit turns the shaft \
-         to {} N m.",
+         a change by the torque limit (`limits.torque`; 1 N m without it), N m/s for an allowed factor: {}. A reversal \
+         at that limit turns the shaft to {} N m.",
         significant(starts.resonance / TAU),
         slew.join(", "),
         significant(starts.reversal)
