@@ -68,6 +68,9 @@ struct Plane {
 /// Change of a reading of which an error of 5 % in that reading is a half.
 const SLIGHT: f64 = 0.1;
 
+/// Part of the change by the corrections that they may miss it by: more is no error of a reading.
+const MISSED: f64 = 0.5;
+
 /// A share of a weight at a given angle.
 #[derive(Clone, Copy, Debug, Serialize)]
 struct Share {
@@ -88,6 +91,8 @@ struct Outcome {
     condition: f64,
     rows: Vec<Row>,
     planes: Vec<Plane>,
+    /// Where the corrections did not do what the coefficients say: the largest vibration, found and expected.
+    missed: Option<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     grade: Option<Grade>,
 }
@@ -206,6 +211,11 @@ fn outcome(file: &BalanceFile) -> Result<Outcome, Fault> {
         });
     }
     let with_holes = (!file.holes.is_empty()).then(|| influence.predict(last, &placed)).transpose()?;
+    let expected = influence.predict(baseline, on)?;
+    let largest = |run: &[Complex<f64>]| run.iter().map(|value| value.norm()).fold(0.0, f64::max);
+    let apart = |run: &[Complex<f64>]| largest(&run.iter().zip(&expected).map(|(a, b)| a - b).collect::<Vec<_>>());
+    let is_missed = *corrections > 0 && apart(last) > MISSED * apart(baseline);
+    let missed = is_missed.then(|| [largest(last), largest(&expected)]);
     // rounding of the largest reading counts as zero
     let most = last.iter().map(|value| value.norm()).fold(0.0, f64::max);
     let left = |value: Complex<f64>| reading(if value.norm() < 1e-12 * most { Complex::new(0.0, 0.0) } else { value });
@@ -229,6 +239,7 @@ fn outcome(file: &BalanceFile) -> Result<Outcome, Fault> {
         condition: correction.condition,
         rows,
         planes,
+        missed,
         // The rotor's unbalance, limits and objective aside.
         grade: grade(file, &influence.correct(last, &Aim::default())?.weights, &placed)?,
     })
@@ -253,6 +264,15 @@ fn facts(outcome: &Outcome) -> Vec<Fact> {
     facts.extend(outcome.planes.iter().filter_map(|plane| {
         let text = format!("changes the readings by {} only: take a heavier one to be sure", percent(slight(plane)?));
         Some(fact(&format!("trial weight of {}", plane.plane), text))
+    }));
+    facts.extend(outcome.missed.map(|[found, expected]| {
+        let text = format!(
+            "{} where {} was predicted: amounts, places or angles of the weights on the rotor, or `phase_sense`, are \
+             not as the file has them",
+            significant(found),
+            significant(expected)
+        );
+        fact("the corrections so far", text)
     }));
     facts.extend(outcome.grade.iter().flat_map(Grade::facts));
     facts

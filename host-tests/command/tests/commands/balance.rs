@@ -59,6 +59,19 @@ fn the_published_fan() {
     assert_eq!(outcome["grade"]["passed"], true);
 }
 
+/// A correction that does as its coefficients say, one that does the opposite, and none.
+#[test]
+fn a_correction_that_misses_is_told() {
+    let after = |readings: &str| {
+        json(&format!("{FAN}[[correction]]\nweights = [[2.91, 50], [2.78, 279]]\nreadings = {readings}\n"))
+    };
+    assert_eq!(after("[[0.9, 140], [0.8, 310]]")["missed"], serde_json::Value::Null);
+    assert_eq!(json(FAN)["missed"], serde_json::Value::Null);
+    let missed = &after("[[14.0, 238], [26.0, 296]]")["missed"];
+    near(&missed[0], 26.0, 1e-12);
+    assert!(missed[1].as_f64().unwrap() < 1.0, "{missed}");
+}
+
 #[test]
 fn amplitudes_alone() {
     // v0 = 5, influence 0.4 at 60 degrees from it, 10 g: x = 4; |5 + 4 e^{i (60 + alpha)}|
