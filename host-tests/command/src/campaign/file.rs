@@ -53,7 +53,7 @@ impl FileCase {
         if let Some(why) = machine.gear_that_stops_at_once() {
             return Err(format!("no plant can be made: {why}"));
         }
-        let designs = Designs::of(&damped, &two).map_err(|error| refused(error.to_string()))?;
+        let designs = Designs::of(&damped, &two).map_err(|error| refused(Designs::refusal(&damped, error)))?;
         let cycle = machine.cycle(two.gravity_torque);
         let ramp = machine.limits.speed / designs.ramp;
         // the loop has settled to e^-5

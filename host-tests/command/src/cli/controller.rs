@@ -382,7 +382,7 @@ impl Plan {
         if let Some(two) = damped.two_masses() {
             damped.drive_gears(&two, false)?;
         }
-        let plan = Self::of(&damped).map_err(|error| error.to_string())?;
+        let plan = Self::of(&damped).map_err(|error| Designs::refusal(&damped, error))?;
         let dampers = if machine.dampers.is_empty() { None } else { Damped::of(machine, &damped) };
         Ok(Self { dampers, ..plan })
     }

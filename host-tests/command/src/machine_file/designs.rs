@@ -90,6 +90,8 @@ enum Remedy {
     Within(f64),
     /// Share of every deviation of `[tolerance]`.
     Tolerance(f64),
+    /// `rate_hz` of `[control]`.
+    Rate(u32),
 }
 
 impl Remedy {
@@ -100,7 +102,8 @@ impl Remedy {
         let slower = slower.into_iter().map(move |share| Self::Bandwidth(short(share * bandwidth)));
         let faster = [0.5, 0.2, 0.1, 0.05, 0.02, 0.01];
         let faster = faster.into_iter().map(move |share| Self::Within(short(share * within)));
-        slower.chain(faster).chain([0.75, 0.5, 0.25].map(Self::Tolerance))
+        let oftener = [2, 5, 10].map(|times| Self::Rate(machine.control.rate_hz.saturating_mul(times)));
+        slower.chain(faster).chain([0.75, 0.5, 0.25].map(Self::Tolerance)).chain(oftener)
     }
 
     fn on(self, machine: &MachineFile) -> MachineFile {
@@ -108,6 +111,7 @@ impl Remedy {
         match self {
             Self::Bandwidth(bandwidth) => changed.bandwidth = bandwidth,
             Self::Within(within) => changed.disturbance.within = within,
+            Self::Rate(rate) => changed.control.rate_hz = rate,
             Self::Tolerance(share) => {
                 for one in &mut changed.tolerances {
                     let nominal = one.factor.about(0.0).low;
@@ -135,6 +139,7 @@ impl fmt::Display for Remedy {
             Self::Tolerance(share) => {
                 write!(f, "with {:.0} % of every deviation in `[tolerance]`", 100.0 * share)
             }
+            Self::Rate(rate) => write!(f, "with `rate_hz = {rate}` in `[control]`"),
         }
     }
 }
@@ -182,8 +187,8 @@ impl fmt::Display for Lack {
             }
             None if self.is_tried => write!(
                 f,
-                "{}: neither less `bandwidth` in `[speed_loop]`, a shorter `within` in `[disturbance]` nor a quarter \
-                 of the deviations in `[tolerance]` mends it alone; the shafts may need damping",
+                "{}: neither less `bandwidth` in `[speed_loop]`, a shorter `within` in `[disturbance]`, a quarter of \
+                 the deviations in `[tolerance]` nor ten times the rate mends it alone; the shafts may need damping",
                 self.cause
             ),
             None => f.write_str(self.cause),
@@ -242,6 +247,16 @@ impl Designs {
             rigid_lacks,
             is_rigid_refused,
         })
+    }
+
+    /// What the library says of a machine that cannot be observed or governed, with a remedy that was tried in place of
+    /// its own where one helps.
+    pub fn refusal(machine: &MachineFile, error: Error) -> String {
+        let lack = Lack { is_of_two: true, ..Lack::of(error) };
+        match machine.two_masses().map(|two| lack.with_remedy(machine, &two, false)) {
+            Some(lack) if lack.remedy.is_some() => lack.to_string(),
+            _ => error.to_string(),
+        }
     }
 
     /// What the selected observer's loop lacks of the usual margins; `None` where it has all.

@@ -402,6 +402,21 @@ fn a_remedy_of_the_design_works() {
     assert!(tried.iter().all(|&kind| kind > 0), "{tried:?}");
 }
 
+/// A rate at which no loop is stable is told with one at which it is.
+#[test]
+fn a_rate_that_is_too_low_is_told_with_one_that_is_not() {
+    let at = |rate: &str| {
+        let roll = include_str!("../../machines/roll.toml").replace("rate_hz = 10000", &format!("rate_hz = {rate}"));
+        Plan::with_dampers(&parse("roll.toml", &roll).unwrap())
+    };
+    for rate in ["200", "500"] {
+        let why = at(rate).unwrap_err();
+        let (_, higher) = why.split_once("with `rate_hz = ").unwrap_or_else(|| panic!("{why}"));
+        let plan = at(higher.split('`').next().unwrap()).unwrap();
+        assert_eq!(plan.speed_loop.unwrap().not_robust, None, "{why}");
+    }
+}
+
 /// The build script of a project, compiled and run as cargo does.
 fn built(project: &Path) -> String {
     let script = project.join("script");

@@ -11,7 +11,7 @@ use super::{Part, PartOptions, Source};
 use crate::cli::Failure;
 use crate::cli::controller::Plan;
 use crate::cli::emit::{dampers, encoder, has_tuning, tolerance, tuning, words, written};
-use crate::machine_file::designs::{BRANCHES, NO_SHAFT};
+use crate::machine_file::designs::{BRANCHES, Designs, NO_SHAFT};
 use crate::machine_file::{DamperRing, MachineFile};
 
 /// The number of a drive.
@@ -269,7 +269,7 @@ impl Project {
             hal: Source::find().dependency("hal"),
             no_drive: match (gears, &plan) {
                 (Err(why), _) => Some(why),
-                (_, Err(error)) => Some(error.message().to_owned()),
+                (_, Err(error)) => Some(Designs::refusal(&damped, *error)),
                 (_, Ok(plan)) => plan.predicted.as_ref().and_then(|predicted| predicted.lack.clone()),
             }
             .map(|why| refused(&why)),
