@@ -220,6 +220,38 @@ fn fifty_simulated_machines_are_found_within_their_own_deviations() {
     assert!(beyond * 20 <= all, "{beyond} of {all} figures are beyond three of their deviations");
 }
 
+/// A coarse encoder leaves most of the torque unexplained, and is no gap: its noise is at all frequencies alike, and the
+/// figures have the deviations that it gives them.
+#[test]
+fn the_counts_of_a_coarse_encoder_are_no_gap() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(folder.path(), "log.csv");
+    let (mut beyond, mut all) = (0, 0);
+    for seed in 1..=10 {
+        let (truth, text) = simulated(seed);
+        let rows = rows(&text);
+        let period = rows[1][0] - rows[0][0];
+        let square = rows.iter().map(|row| row[2] * row[2]).sum::<f64>() / rows.len() as f64;
+        // two roundings a sample, of a twelfth of its square each: as much as the speed
+        let count = period * (6.0 * square).sqrt();
+        let (mut text, mut angle) = ("time_s,torque_Nm,angle_rad\n".to_owned(), 0.0);
+        for row in &rows {
+            writeln!(text, "{},{},{}", row[0], row[1], (angle / count).round() * count).unwrap();
+            angle += period * row[2];
+        }
+        std::fs::write(&file, text).unwrap();
+        let recording = read_recording(&file, &Asked::default()).unwrap();
+        let found = identify(&recording, None).unwrap_or_else(|error| panic!("{seed}: {error}")).estimate;
+        assert!(found.unexplained > 0.4, "{seed}: {}", found.unexplained);
+        let Figures { resonance, antiresonance, motor_inertia, load_inertia, .. } = found.figures;
+        for (figure, truth) in [resonance, antiresonance, motor_inertia, load_inertia].into_iter().zip(truth) {
+            beyond += usize::from((figure.value - truth).abs() > 3.0 * figure.standard_deviation);
+            all += 1;
+        }
+    }
+    assert!(beyond * 20 <= all, "{beyond} of {all} figures are beyond three of their deviations");
+}
+
 /// Friction and gap are told apart: two masses stay two masses under a multisine.
 #[test]
 fn two_masses_under_a_multisine_are_found() {
