@@ -44,23 +44,7 @@ impl<'a> Table<'a> {
     }
 
     fn missing(&self, key: &str, expected: impl std::fmt::Display) -> Diagnostic {
-        let expected = format!("`{key}`: {expected}");
-        let alike = |name: &str| {
-            let near = if key.len() > 4 { 2 } else { 1 };
-            let begun = name.len() > 2 && key.starts_with(name);
-            key.len() > 2 && (begun || strsim::damerau_levenshtein(name, key) <= near)
-        };
-        let misspelt = |name: &&Spanned<DeString<'_>>| {
-            let name: &str = name.get_ref();
-            !self.asked.contains(&name) && alike(name)
-        };
-        match self.table.keys().find(misspelt) {
-            Some(name) => {
-                let found = format!("`{}`", printable(name.get_ref(), REPEATED));
-                Diagnostic::at(self.source, name.span(), self.name(key), found, expected)
-            }
-            None => Diagnostic::at(self.source, self.place.clone(), self.name(key), "nothing", expected),
-        }
+        Diagnostic::at(self.source, self.place.clone(), self.name(key), "nothing", format!("`{key}`: {expected}"))
     }
 
     /// The diagnostic for a key's value that is not what was expected.
