@@ -178,18 +178,43 @@ impl<T: Eigenvalues> Basis<T> {
     fn vector(&self, matrix: &DMatrix<T>, value: Complex<f64>, seed: usize) -> Option<(Vec<Complex<f64>>, f64)> {
         let m = matrix.ncols();
         let beside = value * Complex::new(1.0 + 1e-11, 1e-11);
-        let system = DMatrix::from_fn(m, m, |i, j| {
-            matrix[(i, j)].complex() - if i == j { beside } else { Complex::new(0.0, 0.0) }
-        });
-        let system = system.lu();
-        let mut y = nalgebra::DVector::from_vec(scattered::<Complex<f64>>(m, seed));
+        let row = |i: usize| (0..m).map(move |j| matrix[(i, j)].complex() - if i == j { beside } else { 0.0.into() });
+        let mut rows: Vec<Vec<Complex<f64>>> = (0..m).map(|i| row(i).collect()).collect();
+        // a column ends a block below the diagonal
+        let below = |k: usize| k + 1..(k + 1 + BLOCK).min(m);
+        let mut steps = Vec::with_capacity(m);
+        for k in 0..m {
+            let larger = |best: usize, i: usize| if rows[i][k].l1_norm() > rows[best][k].l1_norm() { i } else { best };
+            let pivot = below(k).fold(k, larger);
+            rows.swap(k, pivot);
+            let (upper, lower) = rows.split_at_mut(k + 1);
+            let mut factors = [Complex::new(0.0, 0.0); BLOCK];
+            for (factor, row) in factors.iter_mut().zip(lower) {
+                *factor = row[k] / upper[k][k];
+                row[k..].iter_mut().zip(&upper[k][k..]).for_each(|(entry, above)| *entry -= *factor * above);
+            }
+            steps.push((pivot, factors));
+        }
+        let mut y = scattered::<Complex<f64>>(m, seed);
         for _ in 0..2 {
-            y = system.solve(&y)?;
-            y /= Complex::new(y.norm(), 0.0);
+            for (k, (pivot, factors)) in steps.iter().enumerate() {
+                y.swap(k, *pivot);
+                let known = y[k];
+                below(k).zip(factors).for_each(|(i, factor)| y[i] -= factor * known);
+            }
+            for k in (0..m).rev() {
+                let known: Complex<f64> = rows[k][k + 1..].iter().zip(&y[k + 1..]).map(|(a, y)| a * y).sum();
+                y[k] = (y[k] - known) / rows[k][k];
+            }
+            let size = length(&y);
+            if !size.is_finite() {
+                return None;
+            }
+            y.iter_mut().for_each(|y| *y /= size);
         }
         let out = (m..matrix.nrows()).map(|i| (0..m).map(|j| matrix[(i, j)].complex() * y[j]).sum::<Complex<f64>>());
         let out = out.map(|part| part.norm_sqr()).sum::<f64>().sqrt();
-        Some((y.iter().copied().collect(), out))
+        Some((y, out))
     }
 }
 
