@@ -16,6 +16,7 @@ use driveline::settings::{self, Bases, Gear, LoadGear};
 use serde::Serialize;
 
 use super::factor::Factor;
+use super::quantity::Quantity;
 use super::{Duty, MachineFile};
 
 /// Why there is no drive of a machine with branches.
@@ -102,7 +103,8 @@ impl Remedy {
         let slower = slower.into_iter().map(move |share| Self::Bandwidth(short(share * bandwidth)));
         let faster = [0.5, 0.2, 0.1, 0.05, 0.02, 0.01];
         let faster = faster.into_iter().map(move |share| Self::Within(short(share * within)));
-        let oftener = [2, 5, 10].map(|times| Self::Rate(machine.control.rate_hz.saturating_mul(times)));
+        let oftener = [2, 5, 10].map(|times| machine.control.rate_hz.saturating_mul(times)).into_iter();
+        let oftener = oftener.filter(|&rate| Quantity::RATE.allows(f64::from(rate))).map(Self::Rate);
         slower.chain(faster).chain([0.75, 0.5, 0.25].map(Self::Tolerance)).chain(oftener)
     }
 
