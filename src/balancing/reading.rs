@@ -146,6 +146,8 @@ pub enum ReadingFault {
     Backwards { times: u32 },
     /// Fewer than eight ticks on a turn.
     TooFast,
+    /// More ticks in a block than its sums bear.
+    TooSlow,
     /// The sensor was at the end of its range, or its value is not a number.
     Clipped,
     /// Ticks without a sample, or with one that is not sound: a bus that failed, a sensor that stood still.
@@ -171,6 +173,7 @@ impl fmt::Display for ReadingFault {
             ReadingFault::TooFast => {
                 f.write_str("the rotor turns too fast for the tick: fewer than eight ticks on a turn")
             }
+            ReadingFault::TooSlow => f.write_str("the rotor turns too slowly for the turns of a block: take fewer"),
             ReadingFault::Clipped => f.write_str("the sensor was at the end of its range, or gave NaN"),
             ReadingFault::Missing { samples } => write!(f, "samples were missing or not sound, {samples} of them"),
             ReadingFault::SpeedMoved { spread } => {

@@ -137,12 +137,18 @@ impl Line {
     }
 }
 
+/// Binary places that a tick's cosine and sine lose in the sums. What a shift cuts off is half a unit in the mean.
+const LOST: u32 = 10;
+
+/// Most ticks of a block: a swing that does not turn the motor back has sums below half of them.
+const MOST_TICKS: u32 = 1 << 18;
+
 /// Where a block ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Edge {
-    /// Sums of cosine and sine before the tick that is past it (2^-24).
-    sums: [i64; 2],
+    /// Sums of cosine and sine before the tick that is past it (2^-14), which wrap around.
+    sums: [i32; 2],
     /// Number of that tick.
     tick: u32,
     /// How far the line's angle is past its zero then (units of its turn).
@@ -157,8 +163,8 @@ struct Edge {
 /// An encoder's rounding, which stands in it once, averages out; a product of two rounded angles would keep a part of
 /// it. Where a block ends between two ticks the sum is corrected to the integral by Euler and Maclaurin's formula.
 ///
-/// The motor turns forwards, a period of the mesh has eight ticks at least, and ticks and counts have no common
-/// period. The amplitude is that of the motor's own swing, which its inertia and the gear's stiffness set: compare it
+/// The motor turns forwards, a period of the mesh has eight ticks at least, a block 262,144 at most, and ticks and
+/// counts have no common period. The amplitude is that of the motor's own swing, which its inertia and the gear's stiffness set: compare it
 /// at one speed and load with what it was, as by a record in flash (feature `parameters`).
 ///
 /// ```
@@ -189,7 +195,7 @@ pub struct GearMesh<const LINES: usize, const EDGES: usize> {
     line: usize,
     is_begun: bool,
     turning: RotorAngle,
-    sums: [i64; 2],
+    sums: [i32; 2],
     tick: u32,
     /// Zeros to pass until the next edge; runs on where the reading is complete.
     left: u32,
@@ -230,7 +236,7 @@ impl<N: Number, const LINES: usize, const EDGES: usize> Fluctuation<N> for GearM
             self.note(line, passed);
         }
         let [cosine, sine] = <Fixed as Synchronous>::direction(self.turning.direction(&line.turning));
-        self.sums = [sums[0].wrapping_add(cosine.into()), sums[1].wrapping_add(sine.into())];
+        self.sums = [sums[0].wrapping_add(cosine >> LOST), sums[1].wrapping_add(sine >> LOST)];
         self.tick = tick;
         self.angle = angle;
     }
@@ -329,24 +335,30 @@ impl<const LINES: usize, const EDGES: usize> GearMesh<LINES, EDGES> {
             let (first, second, third) = (a - 0.5, a * (a - 1.0) + 1.0 / 6.0, a * (a - 0.5) * (a - 1.0));
             Phasor { re: first - turn * turn * third / 6.0, im: -0.5 * turn * second }
         };
-        let phasor = |from: &Edge, to: &Edge| {
+        let integral = |from: &Edge, to: &Edge| {
+            let cut = 0.5 * to.tick.wrapping_sub(from.tick) as f32;
             let sum = |of: usize| {
                 let [to, from] = [to, from].map(|edge| edge.sums.get(of).copied().unwrap_or_default());
-                to.wrapping_sub(from) as f32 / 16_777_216.0
+                (to.wrapping_sub(from) as f32 + cut) / (1 << (24 - LOST)) as f32
             };
-            let integral = Phasor { re: sum(0), im: -sum(1) }.plus(end(from)).less(end(to));
-            // X = 2 i/p of the mean
-            Phasor { re: -integral.im, im: integral.re }.scaled(2.0 / (line.periods * (at(to) - at(from))))
+            Phasor { re: sum(0), im: -sum(1) }.plus(end(from)).less(end(to))
         };
-        let whole = phasor(first, last);
+        // X = 2 i/p of the mean
+        let phasor = |integral: Phasor, ticks: f32| {
+            Phasor { re: -integral.im, im: integral.re }.scaled(2.0 / (line.periods * ticks))
+        };
+        let pairs = || self.edges.windows(2).filter_map(|pair| <&[Edge; 2]>::try_from(pair).ok());
+        let sum = pairs().fold(Phasor::default(), |sum, [from, to]| sum.plus(integral(from, to)));
+        let whole = phasor(sum, at(last) - at(first));
         let (mut squares, mut shortest, mut longest) = (0.0, f32::INFINITY, 0.0);
-        for pair in self.edges.windows(2) {
-            if let [from, to] = pair {
-                squares += phasor(from, to).less(whole).square();
-                let lasted = at(to) - at(from);
-                shortest = if lasted < shortest { lasted } else { shortest };
-                longest = if lasted > longest { lasted } else { longest };
-            }
+        for [from, to] in pairs() {
+            let lasted = at(to) - at(from);
+            squares += phasor(integral(from, to), lasted).less(whole).square();
+            shortest = if lasted < shortest { lasted } else { shortest };
+            longest = if lasted > longest { lasted } else { longest };
+        }
+        if longest > MOST_TICKS as f32 {
+            return Err(ReadingFault::TooSlow);
         }
         let spread = (longest - shortest) / (ticks * periods);
         if !(spread <= SPEED_SPREAD) {

@@ -17,11 +17,13 @@ type Line = (f64, f64, f64);
 /// The encoder's angle (2^-32 turn) where the motor would be at a number of turns if it did not swing. The swing hangs
 /// on where it is, as that of teeth does.
 fn encoder(turns: f64, lines: &[Line]) -> u32 {
-    let swing = |at: f64| -> f64 {
-        lines.iter().map(|(periods, amplitude, phase)| amplitude * (TAU * periods * at + phase).cos()).sum()
-    };
-    // each time contracts by the swing's slope, a twentieth
-    let at = (0..2).fold(turns, |at, _| turns + swing(at) / TAU);
+    // three steps of Newton's: of at - swing(at) = turns
+    let at = (0..3).fold(turns, |at, _| {
+        let angle = |(periods, _, phase): &Line| TAU * periods * at + phase;
+        let swing: f64 = lines.iter().map(|line| line.1 / TAU * angle(line).cos()).sum();
+        let slope: f64 = lines.iter().map(|line| line.1 * line.0 * angle(line).sin()).sum();
+        at - (at - swing - turns) / (1.0 + slope)
+    });
     ((at * COUNTS).floor().rem_euclid(COUNTS) * (4_294_967_296.0 / COUNTS)) as u32
 }
 
@@ -93,6 +95,17 @@ fn five_hundred_teeth_are_read() {
     assert!((reading.unwrap().phasor.amplitude() - 40e-6).abs() < 4e-6, "{reading:?}");
     let [reading] = read(&config, 1.0 / 3_900.371_9, &[(500.0, 40e-6, 0.0)]);
     assert_eq!(reading, Err(ReadingFault::TooFast));
+    let [reading] = read(&config, 1.0 / 6_600.371_9, &[(500.0, 40e-6, 0.0)]);
+    assert_eq!(reading, Err(ReadingFault::TooSlow));
+}
+
+/// A swing by six tenths of the speed in blocks of nearly the most ticks: its sums come to 0.56 of their range.
+#[test]
+fn sums_do_not_overflow() {
+    let config = GearMeshConfig::<1>::new(20, &[Sideband::MESH], 8);
+    let amplitude = 0.03;
+    let [reading] = read(&config, 1.0 / 31_011.37, &[(20.0, amplitude, 0.0)]);
+    assert!((f64::from(reading.unwrap().phasor.amplitude()) / amplitude - 1.0).abs() < 0.01, "{reading:?}");
 }
 
 /// An angle that was not there, and a speed that rises by a tenth over the reading.
