@@ -206,11 +206,6 @@ where
         Faults::NONE
     }
 
-    /// Whether the power stage is on.
-    pub fn is_enabled(&self) -> bool {
-        self.enabled
-    }
-
     /// The drive.
     pub fn drive(&self) -> &D {
         &self.drive

@@ -4,7 +4,7 @@
 //! # On the tick
 //! [`Phasors`] measures the vibration at a multiple of the rotor's speed, as one complex number for each channel.
 //! Several orders, or rotors behind different gears, are a tuple of them. [`Reading`] is the result, with its spread,
-//! drift and variance; [`Sensor`] converts it to displacement, velocity or acceleration.
+//! drift and variance.
 //!
 //! # Off the tick
 //! With the feature `balancing`. [`Influence`] identifies the influence coefficients from trial runs and computes the
@@ -71,7 +71,6 @@ mod record;
 mod rigid;
 #[cfg(feature = "balancing")]
 mod scalar;
-mod sensor;
 #[cfg(feature = "balancing")]
 mod task;
 #[cfg(feature = "balancing")]
@@ -107,7 +106,6 @@ pub use record::ProcedureRecord;
 pub use rigid::{RigidUnbalance, one_plane_suffices};
 #[cfg(feature = "balancing")]
 pub use scalar::{Complex, Scalar};
-pub use sensor::{Motion, Sensor, SensorError};
 #[cfg(feature = "balancing")]
 pub use task::{BalancingDesign, BalancingDesignError, BalancingFault, BalancingState, BalancingTask, Look};
 #[cfg(feature = "balancing")]

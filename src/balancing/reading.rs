@@ -58,11 +58,6 @@ impl Phasor {
         Phasor { re: self.re - other.re, im: self.im - other.im }
     }
 
-    /// The complex conjugate: the phase changes its sign.
-    pub fn conjugate(self) -> Phasor {
-        Phasor { re: self.re, im: -self.im }
-    }
-
     /// Square of the amplitude.
     pub fn square(self) -> f32 {
         self.re * self.re + self.im * self.im

@@ -289,14 +289,6 @@ impl GovernorDesign {
         }
     }
 
-    /// Fall of the steady speed per load torque (rad/(s N m)) under a [`Droop`](crate::governor::Droop) R, with the
-    /// natural damping D: `R/(1 + R D)`, since the machine itself carries the share `D R/(1 + R D)` of the load. Where
-    /// `R D` is -1 or below there is no steady state: the result is infinite or negative.
-    #[must_use]
-    pub const fn droop(&self, droop: f64) -> f64 {
-        droop / (1.0 + droop * self.natural.sum())
-    }
-
     /// Margins of the loop round a machine, cut at the actuator.
     #[must_use]
     pub const fn margins(&self, machine: &TwoMass) -> Margins {

@@ -53,11 +53,6 @@ impl<N: Summed + Ranked, const BINS: usize> Fluctuation<N> for Interleaved<BINS,
 }
 
 impl<N: Summed + Ranked, const BINS: usize> Interleaved<BINS, N> {
-    /// The waveform.
-    pub fn waveform(&self) -> &Waveform<BINS, N> {
-        &self.waveform
-    }
-
     /// The waveform, to take its finished windows.
     pub fn waveform_mut(&mut self) -> &mut Waveform<BINS, N> {
         &mut self.waveform

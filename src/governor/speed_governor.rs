@@ -129,16 +129,6 @@ where
         self.integral
     }
 
-    /// The run sequence.
-    pub fn sequence(&self) -> &M {
-        &self.sequence
-    }
-
-    /// The run sequence, to request another state.
-    pub fn sequence_mut(&mut self) -> &mut M {
-        &mut self.sequence
-    }
-
     /// Bumpless transfer from the constants `from` to `to`: the next tick's torque is as under `from`. Call it once,
     /// between two ticks, when gains, droop or feed-forward change. The integral takes over the difference of the
     /// torques, up to twice the limit; the ramped setpoint that of the droops, and returns by its ramp.

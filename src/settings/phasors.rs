@@ -6,12 +6,8 @@ use crate::number::{Fixed, Number};
 
 /// The rotor that is measured, and how.
 ///
-/// ```
-/// use driveline::settings::PhasorSettings;
-/// // mains of 50 Hz in the cable of a rotor of 49 turns a second: a beat lasts 49 turns
-/// let measured = PhasorSettings::DIRECT.over_whole_beats(50.0, 49.0);
-/// assert!((PhasorSettings::DIRECT.turns, measured.turns) == (8, 49) || measured.turns == 48);
-/// ```
+/// A disturbance that keeps its frequency, as the mains' hum in a sensor's cable, adds nothing over whole beats: at 48
+/// turns a second beside 50 Hz take [`turns`](Self::turns) of a multiple of 24.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PhasorSettings {
@@ -32,31 +28,6 @@ impl PhasorSettings {
     /// The rotor on the motor's shaft, its own order, eight turns a block.
     pub const DIRECT: Self =
         PhasorSettings { rotor_turns: 1, motor_turns: 1, order: 1, turns: 8, steadiness: Steadiness::USUAL };
-
-    /// With blocks lengthened to whole beats of a disturbance that keeps its frequency, as the mains' hum in a sensor's
-    /// cable: over whole beats it adds nothing to the phasor.
-    ///
-    /// `hertz` is the disturbance's frequency, `rotor_hertz` the rotor's turns a second; their beat at the order
-    /// decides. The block is the shortest of at least [`PhasorSettings::turns`] that ends within 2 % of a beat, or the
-    /// best one of up to 300 turns times the order; nothing changes where frequencies are equal or not positive.
-    pub const fn over_whole_beats(mut self, hertz: f64, rotor_hertz: f64) -> Self {
-        if !(hertz > 0.0 && rotor_hertz > 0.0 && hertz < 1e6 && self.order > 0) {
-            return self;
-        }
-        let beat = hertz / rotor_hertz - self.order as f64;
-        let beat = if beat < 0.0 { -beat } else { beat };
-        let (mut turns, mut least) = (self.turns, 1.0);
-        each!(candidate, (self.turns).., candidate <= 300 / self.order && least > 0.02, {
-            let beats = candidate as f64 * beat;
-            let off = beats - (beats + 0.5) as u32 as f64;
-            let off = if off < 0.0 { -off } else { off };
-            if beats > 0.5 && off < least {
-                (turns, least) = (candidate, off);
-            }
-        });
-        self.turns = turns;
-        self
-    }
 }
 
 sentences! {

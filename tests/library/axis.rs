@@ -57,7 +57,7 @@ fn a_missing_angle_coasts_and_the_estimates_stand() {
         assert!(off < bound || (to..to + 100).contains(&tick), "tick {tick}: {off}");
         assert!(off < 0.1 * bound || (from..to + 100).contains(&tick), "tick {tick}: {off}");
     }
-    assert!(axis.is_enabled());
+    assert!(axis.board().is_enabled());
 }
 
 #[test]
@@ -70,7 +70,7 @@ fn an_angle_that_stays_away_trips_and_a_start_needs_it_again() {
     let told = board.told.clone();
     let mut axis = governing(board);
     let mut ticks = 0;
-    while axis.is_enabled() {
+    while axis.board().is_enabled() {
         axis.tick(CONFIG, WANTED);
         ticks += 1;
     }
@@ -104,7 +104,7 @@ fn an_angle_that_was_lost_at_rest_is_found_on_request() {
         },
     );
     let mut axis = governing(board);
-    while axis.is_enabled() {
+    while axis.board().is_enabled() {
         axis.tick(CONFIG, WANTED);
     }
     assert_eq!(axis.at_rest(CONFIG), Err(Faults::ANGLE_MISSING));
@@ -113,7 +113,7 @@ fn an_angle_that_was_lost_at_rest_is_found_on_request() {
     }
     assert_eq!(axis.start(CONFIG), Err(Faults::ANGLE_LOST));
     assert_eq!(axis.at_rest(CONFIG), Ok(()));
-    assert!(!axis.is_enabled());
+    assert!(!axis.board().is_enabled());
     assert_eq!(axis.start(CONFIG), Ok(()));
     assert_eq!(axis.tick(CONFIG, 0.0).faults, Faults::NONE);
     assert_eq!(axis.drive().estimate(CONFIG).motor_speed, 0.0);
@@ -167,6 +167,6 @@ fn a_start_that_fails_stays_off() {
         axis.tick(CONFIG, WANTED);
     }
     assert_eq!(axis.start(CONFIG), Err(Faults::ENABLE));
-    assert!(!axis.is_enabled());
+    assert!(!axis.board().is_enabled());
     assert_eq!(axis.tick(CONFIG, WANTED).torque, 0.0);
 }

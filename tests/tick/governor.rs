@@ -4,10 +4,10 @@ use driveline::fault::Faults;
 use driveline::governor::{
     AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, BacklashTakeUp,
     BacklashTakeUpConfig, Barred, BarredConfig, Compensation, Curve, CurveConfig, CurvePiece, CycleAverage, Droop,
-    DroopConfig, FeedForward, FeedForwardConfig, Gains, Governor, InputShaper, InputShaperConfig, Limit, LoadSharing,
-    LoadSharingConfig, MovingAverage, MovingAverageConfig, RunRequest, RunState, Sequencer, SequencerConfig,
-    SetpointShape, Slew, SlewConfig, SpeedFilter, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig,
-    SpeedRange, SymmetricLimit, SymmetricLimitConfig, TransportDelay, TransportDelayConfig, Trip,
+    DroopConfig, FeedForward, FeedForwardConfig, Gains, Governor, HasRunSequence, InputShaper, InputShaperConfig,
+    Limit, LoadSharing, LoadSharingConfig, MovingAverage, MovingAverageConfig, RunRequest, RunState, Sequencer,
+    SequencerConfig, SetpointShape, Slew, SlewConfig, SpeedFilter, SpeedGovernor, SpeedGovernorConfig, SpeedLoop,
+    SpeedLoopConfig, SpeedRange, SymmetricLimit, SymmetricLimitConfig, TransportDelay, TransportDelayConfig, Trip,
 };
 use driveline::number::{Coefficient, Fixed, StateOf, Weight};
 use driveline::sample::Estimate;
@@ -164,13 +164,13 @@ fn a_running_machine_that_is_turned_backwards_trips() {
     let mut governor = Sequenced::default();
     governor.start(&SEQUENCED, &at(100.0), 0.0);
     governor.command(&SEQUENCED, &at(100.0));
-    assert_eq!(governor.sequence().state(), RunState::Running);
+    assert_eq!(governor.sequencer().state(), RunState::Running);
     for _ in 0..SEQUENCE.trip_delay {
         governor.command(&SEQUENCED, &at(-100.0));
-        assert_eq!(governor.sequence().state(), RunState::Running);
+        assert_eq!(governor.sequencer().state(), RunState::Running);
     }
     assert_eq!(governor.command(&SEQUENCED, &at(-100.0)), 0.0);
-    assert_eq!(governor.sequence().state(), RunState::Tripped(Trip::Reverse));
+    assert_eq!(governor.sequencer().state(), RunState::Tripped(Trip::Reverse));
 }
 
 #[test]
@@ -179,15 +179,15 @@ fn braking_goes_to_standstill_and_forgets_no_setpoint() {
     governor.start(&SEQUENCED, &at(100.0), 0.0);
     governor.set_setpoint(100.0);
     governor.command(&SEQUENCED, &at(100.0));
-    assert_eq!(governor.sequence().state(), RunState::Running);
-    assert!(governor.sequence_mut().request(RunRequest::Stop));
+    assert_eq!(governor.sequencer().state(), RunState::Running);
+    assert!(governor.sequencer_mut().request(RunRequest::Stop));
     for ramped in [90.0, 80.0] {
         governor.command(&SEQUENCED, &at(ramped));
         assert_eq!(governor.ramped_setpoint(), ramped);
     }
-    assert_eq!(governor.sequence().state(), RunState::Braking);
+    assert_eq!(governor.sequencer().state(), RunState::Braking);
     // started again on the way, without a further setpoint
-    assert!(governor.sequence_mut().request(RunRequest::Start));
+    assert!(governor.sequencer_mut().request(RunRequest::Start));
     for ramped in [90.0, 100.0, 100.0] {
         governor.command(&SEQUENCED, &at(ramped));
         assert_eq!(governor.ramped_setpoint(), ramped);
@@ -409,7 +409,7 @@ fn a_trip_comes_after_its_delay() {
     governor.command(&SEQUENCED, &at(100.0));
     let mut state_at = |speed| {
         governor.command(&SEQUENCED, &at(speed));
-        governor.sequence().state()
+        governor.sequencer().state()
     };
     // overspeed from 150; a tick within the limits takes one off
     assert_eq!([160.0, 160.0, 100.0, 160.0].map(&mut state_at), [RunState::Running; 4]);
@@ -420,7 +420,7 @@ fn a_trip_comes_after_its_delay() {
 #[test]
 fn a_machine_stopped_before_its_first_tick_begins_at_its_speed() {
     let mut governor = Sequenced::default();
-    assert!(governor.sequence_mut().request(RunRequest::Start) && governor.sequence_mut().request(RunRequest::Stop));
+    assert!(governor.sequencer_mut().request(RunRequest::Start) && governor.sequencer_mut().request(RunRequest::Stop));
     governor.command(&SEQUENCED, &at(50.0));
     assert_eq!(governor.ramped_setpoint(), 40.0);
 }

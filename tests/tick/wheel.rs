@@ -170,41 +170,6 @@ fn a_wheel_is_learnt() {
     assert!(Teeth::<4>::learnt(&times(3, 0, 0.016)).is_err());
 }
 
-/// A hum of 50 Hz beside a rotor of 12 turns a second: their beat is `50/12 - 1` of a turn, and six turns make 19 of
-/// them.
-#[test]
-fn a_block_over_whole_beats() {
-    let of = |turns, order, hertz, rotor| {
-        PhasorSettings { turns, order, ..PhasorSettings::DIRECT }.over_whole_beats(hertz, rotor).turns
-    };
-    assert_eq!(of(4, 1, 50.0, 12.0), 6);
-    assert_eq!(of(6, 1, 50.0, 12.0), 6);
-    assert_eq!(of(7, 1, 50.0, 12.0), 12);
-    // 50/12 - 2 = 13/6, and 50/60 - 1 = -1/6
-    assert_eq!(of(4, 2, 50.0, 12.0), 6);
-    assert_eq!(of(4, 1, 50.0, 60.0), 6);
-    // within 2 %: 19 turns of a beat of 1/3 + 1/2000 make 6 and 0.34; 21 make 7 and 0.0105
-    assert_eq!(of(20, 1, 1.0 + 1.0 / 3.0 + 0.0005, 1.0), 21);
-    // no beat at all, and none within reach: as it was
-    assert_eq!(of(8, 1, 50.0, 50.0), 8);
-    for (hertz, rotor) in [(0.0, 12.0), (-50.0, 12.0), (50.0, 0.0), (50.0, -12.0), (1e6, 12.0), (f64::NAN, 12.0)] {
-        assert_eq!(of(4, 1, hertz, rotor), 4, "{hertz} {rotor}");
-    }
-    assert_eq!(of(4, 0, 50.0, 12.0), 4);
-    // up to 300 turns times the order: the best of a beat of 400 turns are three quarters; half a beat is none
-    assert_eq!(of(150, 1, 1.0 + 1.0 / 400.0, 1.0), 300);
-    assert_eq!(of(150, 2, 2.0 + 1.0 / 400.0, 1.0), 150);
-    assert_eq!(of(150, 1, 1.0 + 1.0 / 700.0, 1.0), 150);
-    // less than half a beat is none, however near to none it is
-    assert_eq!(of(20, 1, 1.0 + 1.0 / 400.0, 1.0), 300);
-    // half a beat of four turns, the longest of order 64, is none
-    assert_eq!(of(1, 64, 64.125, 1.0), 1);
-    // three and five turns of 3/8 of a beat are as near, an eighth, and six are not nearer: the shorter one
-    assert_eq!(of(1, 50, 50.375, 1.0), 3);
-    // no turns are none whatever the frequencies
-    assert_eq!(of(0, 1, 0.0, 12.0), 0);
-}
-
 #[test]
 fn the_limits_of_a_rotors_measurement() {
     let of = |change: fn(&mut PhasorSettings)| {

@@ -4,8 +4,7 @@
 
 use driveline::balancing::{
     Action, Aim, BalanceTolerance, Complex, CorrectionMethod, Entry, Error, Holes, InRun, InRunConfig, Influence,
-    Motion, Objective, Phasor, Plan, Procedure, ProcedureRecord, Run, Sensor, degrees, from_amplitudes, resultant,
-    two_planes,
+    Objective, Plan, Procedure, ProcedureRecord, Run, degrees, from_amplitudes, resultant, two_planes,
 };
 use driveline::parameters::Store;
 
@@ -142,13 +141,11 @@ fn field(readings: &Readings<8>) -> Result<[Complex<f32>; 2], Error> {
     Ok(known.correction()?.weights)
 }
 
-/// A sensor's reading, two planes, the tolerance and the verdict.
+/// Two planes, the tolerance and the verdict.
 #[inline(never)]
 fn grade(_: &mut (), readings: &Readings<2>, grade: &mut f32) {
-    let sensor = Sensor { high_pass: 10.0, ..Sensor::ideal(Motion::Velocity) };
     let [[a, b], [c, d]] = *readings;
-    let Ok(moved) = sensor.motion(Phasor { re: a.re, im: a.im }, 150.0, Motion::Displacement) else { return };
-    let along = [(Complex::from(moved), 0.1), (b, 0.4), (c, 0.5), (d, 0.9)];
+    let along = [(a, 0.1), (b, 0.4), (c, 0.5), (d, 0.9)];
     let Ok(planes) = two_planes(along, 0.0, 1.0) else { return };
     let tolerance = BalanceTolerance { grade: 2.5, mass: 100.0, speed: 150.0 };
     let (Ok(whole), Ok(bearings)) = (tolerance.permissible(), tolerance.at_bearings(0.4, 1.0)) else { return };

@@ -1,8 +1,8 @@
 //! The governor alone, and the cost of each of its parts, on the diesel genset's constants.
 
 use driveline::governor::{
-    ActiveDamping, Barred, Curve, Droop, FeedForward, Governor, MovingAverage, RunRequest, Sequencer, Slew,
-    SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SymmetricLimit, TorqueRange,
+    ActiveDamping, Barred, Curve, Droop, FeedForward, Governor, HasRunSequence, MovingAverage, RunRequest, Sequencer,
+    Slew, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SymmetricLimit, TorqueRange,
 };
 use driveline::number::{Fixed, Number, StateOf};
 use driveline::sample::{Command, Estimate};
@@ -77,7 +77,7 @@ macro_rules! governors {
             let governor = <StateOf<SpeedGovernor<(), (), SymmetricLimit, (), Average>, N>>::default();
             bench.measure("governor/mean", (&config, governor), input::<N>, command);
             let mut modes = <StateOf<SpeedGovernor<(), (), SymmetricLimit, Sequencer>, N>>::default();
-            modes.sequence_mut().request(RunRequest::Start);
+            modes.sequencer_mut().request(RunRequest::Start);
             let config = SpeedGovernorConfig {
                 gains: GAINS,
                 shape: (),
@@ -88,7 +88,7 @@ macro_rules! governors {
             };
             bench.measure("governor/modes", (&config, modes), input::<N>, command);
             let mut whole = <StateOf<generator::Governor, N>>::default();
-            whole.sequence_mut().request(RunRequest::Start);
+            whole.sequencer_mut().request(RunRequest::Start);
             let config = SpeedGovernorConfig {
                 gains: GAINS,
                 shape: (p::DROOP, p::BARRED),

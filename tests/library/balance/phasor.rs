@@ -3,9 +3,7 @@
 use std::f64::consts::TAU;
 
 use driveline::angle::{OncePerTurn, Synchronous};
-use driveline::balancing::{
-    Balancer, Motion, Phasor, Phasors, PhasorsConfig, Reading, ReadingFault, Sensor, Steadiness,
-};
+use driveline::balancing::{Balancer, Phasor, Phasors, PhasorsConfig, Reading, ReadingFault, Steadiness};
 use driveline::configure::{Configure, HasVibration, Machine, Rating};
 use driveline::design::Encoder;
 use driveline::machine::{Chain, Damping, Inertia, Speed, Stiffness, Torque};
@@ -348,11 +346,7 @@ fn the_floor_of_a_machine_is_the_same_in_every_number() {
 /// Hum at 50 Hz beside a rotor at 48 turns a second, as large as the vibration: blocks of 24 turns, 25 periods of it.
 #[test]
 fn hum_beside_once_a_turn_vanishes_over_whole_beats() {
-    let whole = CALM.over_whole_beats(50.0, 48.0);
-    assert_eq!(whole.turns, 24);
-    // 49 turns to a beat, and 50 periods of the hum; at 50 turns a second there is no beat
-    assert_eq!(CALM.over_whole_beats(50.0, 49.0).turns, 49);
-    assert_eq!(CALM.over_whole_beats(50.0, 50.0), CALM);
+    let whole = PhasorSettings { turns: 24, ..CALM };
     let config = PhasorsConfig::<f32, 1>::new(&whole, [20.0]);
     let mut hum = 0.3_f64;
     let ticks = 83.3;
@@ -468,7 +462,7 @@ fn garbage_is_survived() {
 }
 
 #[test]
-fn run_out_and_sensor_are_taken_off() {
+fn run_out_is_taken_off() {
     let config = PhasorsConfig::<f32, 1>::new(&CALM, [20.0]);
     let run_out = |theta: f64| 0.8 * (theta + 2.0).cos();
     let slow = run::<f32, 9>(&config, &mut Rig::new(900.0), |v| v as f32, |theta, _| run_out(theta)).unwrap();
@@ -476,47 +470,11 @@ fn run_out_and_sensor_are_taken_off() {
     let fast = run::<f32, 9>(&config, &mut Rig::new(60.0), |v| v as f32, both).unwrap();
     let (by, turned) = error(fast.phasor.less(slow.phasor), 2.0, -1.0);
     assert!(by.abs() < 3e-4 && turned.abs() < 0.03, "{by} {turned}");
-
-    // x = 1e-4 m at 100 rad/s: the acceleration is 1 m/s2 against it, and a pick-up with its corner at 100 rad/s gives
-    // 1/sqrt 2 of the speed, 45 degrees early; 20 V s/m
-    let pick_up = Sensor { sensitivity: 20.0, high_pass: 100.0, ..Sensor::ideal(Motion::Velocity) };
-    let speed = 1e-4 * 100.0;
-    let early = std::f32::consts::FRAC_PI_4 + std::f32::consts::FRAC_PI_2;
-    let volts = Phasor { re: early.cos(), im: early.sin() }.scaled(20.0 * speed / 2_f32.sqrt());
-    let x = pick_up.motion(volts, 100.0, Motion::Displacement).unwrap();
-    assert!((x.re - 1e-4).abs() < 1e-10 && x.im.abs() < 1e-10, "{x:?}");
-    let a = pick_up.motion(volts, 100.0, Motion::Acceleration).unwrap();
-    assert!((a.re + 1.0).abs() < 1e-6 && a.im.abs() < 1e-6, "{a:?}");
-    // a sensor a quarter turn further round sees the same a quarter turn later
-    let aside = Sensor { angle: std::f32::consts::FRAC_PI_2, ..Sensor::ideal(Motion::Displacement) };
-    let seen = aside.motion(Phasor { re: 0.0, im: -1.0 }, 1.0, Motion::Displacement).unwrap();
-    assert!((seen.re - 1.0).abs() < 1e-6 && seen.im.abs() < 1e-6, "{seen:?}");
-}
-
-/// x = 1e-4 m at 100 rad/s: 1e-2 m/s a quarter turn ahead, 1 m/s2 half a turn ahead. From each of them to each.
-#[test]
-fn any_motion_is_had_from_any_other() {
-    let motions = [
-        (Motion::Displacement, Phasor { re: 1e-4, im: 0.0 }),
-        (Motion::Velocity, Phasor { re: 0.0, im: 1e-2 }),
-        (Motion::Acceleration, Phasor { re: -1.0, im: 0.0 }),
-    ];
-    for (measured, phasor) in motions {
-        for (wanted, expected) in motions {
-            let found = Sensor::ideal(measured).motion(phasor, 100.0, wanted).unwrap();
-            // some roundings of an f32
-            assert!(
-                found.less(expected).amplitude() < 1e-6 * expected.amplitude(),
-                "{measured:?} {wanted:?} {found:?}"
-            );
-        }
-    }
 }
 
 #[test]
 fn a_phasor_is_a_complex_number() {
     let phasor = Phasor { re: 1.5, im: -0.25 };
-    assert_eq!(phasor.conjugate(), Phasor { re: 1.5, im: 0.25 });
     assert_eq!(nalgebra::Complex::<f32>::from(phasor), nalgebra::Complex::new(1.5, -0.25));
     assert_eq!(nalgebra::Complex::<f64>::from(phasor), nalgebra::Complex::new(1.5, -0.25));
 }
@@ -530,37 +488,6 @@ fn faults_of_a_reading_give_their_share_in_tenths_of_a_percent() {
     ] {
         assert_eq!(fault.to_string(), expected);
     }
-}
-
-/// Each wrong setting of a sensor has a sentence of its own.
-#[test]
-fn a_sensor_that_cannot_be_is_refused() {
-    let sound = Sensor { sensitivity: 20.0, high_pass: 100.0, ..Sensor::ideal(Motion::Velocity) };
-    let volts = Phasor { re: 1.0, im: 0.0 };
-    let said = |sensor: Sensor, phasor: Phasor, frequency: f32| {
-        sensor.motion(phasor, frequency, Motion::Displacement).unwrap_err().to_string()
-    };
-    for wrong in [0.0, -1.0, f32::NAN, f32::INFINITY] {
-        let of = said(Sensor { sensitivity: wrong, ..sound }, volts, 100.0);
-        assert_eq!(of, "the sensor's sensitivity must be a number above zero");
-        assert_eq!(said(sound, volts, wrong), "the frequency of the reading must be a number above zero");
-    }
-    for wrong in [-1.0, f32::NAN, f32::INFINITY] {
-        let of = said(Sensor { high_pass: wrong, ..sound }, volts, 100.0);
-        assert_eq!(of, "the sensor's lower corner must be a number, zero for none");
-    }
-    for wrong in [0.0, -1.0, f32::NAN] {
-        let of = said(Sensor { low_pass: wrong, ..sound }, volts, 100.0);
-        assert_eq!(of, "the sensor's upper corner must be above zero, infinite for none");
-    }
-    // 90 degrees where radians are expected
-    for wrong in [90.0, f32::NAN, f32::NEG_INFINITY] {
-        let of = said(Sensor { angle: wrong, ..sound }, volts, 100.0);
-        assert_eq!(of, "the sensor's angle must be a number of radians within ten turns");
-    }
-    let nothing = Phasor { re: f32::NAN, im: 0.0 };
-    assert_eq!(said(sound, nothing, 100.0), "the sensor's phasor is not a number");
-    assert!(sound.motion(volts, 100.0, Motion::Acceleration).is_ok());
 }
 
 /// Two channels and two orders at once, as a drive composes them.

@@ -2,8 +2,8 @@
 
 use driveline::design::{Actuator, LoadFeedForward, Rate};
 use driveline::governor::{
-    Gains, Governor, RunRequest, RunState, Sequencer, SequencerConfig, SpeedGovernor, SpeedGovernorConfig,
-    SymmetricLimit, SymmetricLimitConfig, Trip,
+    Gains, Governor, HasRunSequence, RunRequest, RunState, Sequencer, SequencerConfig, SpeedGovernor,
+    SpeedGovernorConfig, SymmetricLimit, SymmetricLimitConfig, Trip,
 };
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::StateOf;
@@ -44,7 +44,7 @@ fn at(motor_speed: f64, shaft_torque: f64) -> Estimate<f64> {
 }
 
 fn mode(governor: &Supervised) -> RunState {
-    governor.sequence().state()
+    governor.sequencer().state()
 }
 
 /// Ticks at a speed and shaft torque; the last command.
@@ -60,7 +60,7 @@ fn run(governor: &mut Supervised, speed: f64, shaft: f64, ticks: usize) -> f64 {
 
 fn running() -> Supervised {
     let mut governor = Supervised::default();
-    assert!(governor.sequence_mut().request(RunRequest::Start));
+    assert!(governor.sequencer_mut().request(RunRequest::Start));
     run(&mut governor, 100.0, 0.0, 3);
     assert_eq!(mode(&governor), RunState::Running);
     governor
@@ -70,19 +70,19 @@ fn running() -> Supervised {
 fn a_life_without_trips() {
     let mut governor = Supervised::default();
     assert_eq!((mode(&governor), run(&mut governor, 0.0, 0.0, 10)), (RunState::Stopped, 0.0));
-    assert!(governor.sequence_mut().request(RunRequest::Start));
+    assert!(governor.sequencer_mut().request(RunRequest::Start));
     assert!(run(&mut governor, 0.0, 0.0, 10) > 0.0);
     assert_eq!(mode(&governor), RunState::Starting);
     assert!(run(&mut governor, 79.0, 0.0, 10) != 0.0);
     assert_eq!(mode(&governor), RunState::Starting);
     run(&mut governor, 81.0, 0.0, 1);
     assert_eq!(mode(&governor), RunState::Running);
-    assert!(governor.sequence_mut().request(RunRequest::Stop));
+    assert!(governor.sequencer_mut().request(RunRequest::Stop));
     assert!(run(&mut governor, 81.0, 0.0, 300) < 0.0);
     assert_eq!(mode(&governor), RunState::Braking);
-    assert!(governor.sequence_mut().request(RunRequest::Start));
+    assert!(governor.sequencer_mut().request(RunRequest::Start));
     assert_eq!(mode(&governor), RunState::Starting);
-    assert!(governor.sequence_mut().request(RunRequest::Stop));
+    assert!(governor.sequencer_mut().request(RunRequest::Stop));
     // Below the standstill limit it has stopped; underspeed does not count on the way.
     run(&mut governor, 10.0, 0.0, 1000);
     assert_eq!((run(&mut governor, 0.5, 0.0, 1), mode(&governor)), (0.0, RunState::Stopped));
@@ -109,12 +109,12 @@ fn every_trip_comes_when_it_is_due_and_stays() {
             assert_eq!((run(&mut governor, speed, 600.0, 5), mode(&governor)), (0.0, RunState::Tripped(trip)));
         }
         for refused in [RunRequest::Start, RunRequest::Stop, RunRequest::Trip] {
-            assert!(!governor.sequence_mut().request(refused));
+            assert!(!governor.sequencer_mut().request(refused));
         }
         assert_eq!(governor.permitted(&config(), &at(0.0, 0.0), 300.0), 0.0);
         governor.angle_lost(&config(), &at(0.0, 0.0));
         assert_eq!((run(&mut governor, 0.0, 0.0, 5), mode(&governor)), (0.0, RunState::Tripped(trip)));
-        assert!(governor.sequence_mut().request(RunRequest::Reset));
+        assert!(governor.sequencer_mut().request(RunRequest::Reset));
         assert_eq!((run(&mut governor, 0.0, 0.0, 5), mode(&governor)), (0.0, RunState::Stopped));
     }
 }
@@ -139,14 +139,14 @@ fn what_passes_does_not_trip() {
 #[test]
 fn a_start_that_takes_too_long_trips() {
     let mut governor = Supervised::default();
-    governor.sequence_mut().request(RunRequest::Start);
+    governor.sequencer_mut().request(RunRequest::Start);
     run(&mut governor, 50.0, 0.0, 1000);
     assert_eq!(mode(&governor), RunState::Starting);
     assert_eq!((run(&mut governor, 50.0, 0.0, 1), mode(&governor)), (0.0, RunState::Tripped(Trip::NotStarted)));
     // Overspeed and reverse trip a start as well.
     for (speed, trip) in [(111.0, Trip::Overspeed), (-3.0, Trip::Reverse)] {
         let mut governor = Supervised::default();
-        governor.sequence_mut().request(RunRequest::Start);
+        governor.sequencer_mut().request(RunRequest::Start);
         run(&mut governor, speed, 0.0, 3);
         assert_eq!(mode(&governor), RunState::Tripped(trip));
     }
@@ -160,7 +160,7 @@ fn a_lost_angle_trips_what_turns() {
     let mut governor = Supervised::default();
     governor.angle_lost(&config(), &at(0.0, 0.0));
     assert_eq!(mode(&governor), RunState::Stopped);
-    assert!(running().sequence_mut().request(RunRequest::Trip));
+    assert!(running().sequencer_mut().request(RunRequest::Trip));
 }
 
 proptest! {
@@ -177,7 +177,7 @@ proptest! {
             let all = [RunRequest::Start, RunRequest::Stop, RunRequest::Reset, RunRequest::Trip];
             let request = all.get(usize::from(ask));
             if let Some(request) = request {
-                governor.sequence_mut().request(*request);
+                governor.sequencer_mut().request(*request);
             }
             if matches!(before, RunState::Tripped(_)) && request != Some(&RunRequest::Reset) {
                 prop_assert_eq!(mode(&governor), before);
