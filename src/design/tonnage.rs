@@ -23,7 +23,7 @@ use crate::math::hypot;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ForceAccuracy {
-    /// Idle torque (N m).
+    /// Idle torque (N m). Measured over a turn of the crank without a force, it is known to a part of itself.
     pub idle: f64,
     /// Torque constant and inertia, relative.
     pub relative: f64,

@@ -55,7 +55,8 @@ fn design(drawn: &Drawn, (counts, step): (u32, f64)) -> MechanismDesign {
     driven.observer(Rate::hz(RATE_HZ), Encoder::counts(counts), disturbance)
 }
 
-/// A press whose tool meets a force over an arc, with its peak in parts of the rated one.
+/// A press whose tool meets a force over an arc, with its peak in parts of the rated one. It turns twice without a
+/// force; over the second turn the idle torque is measured.
 fn stroke(drawn: &Drawn, encoder: (u32, f64), peak: f64, noise: &mut Noise) -> Findings {
     let leverage = drawn.way.slope();
     let at = |k: i32| TAU * f64::from(k) / 4096.0;
@@ -86,14 +87,14 @@ fn stroke(drawn: &Drawn, encoder: (u32, f64), peak: f64, noise: &mut Noise) -> F
         .unwrap();
     let design = design(drawn, encoder);
     let config = MechanismConfig::<f64, 1>::new(&design, Bases::SI);
-    let limit = ForceLimitConfig::<f64>::new(&design, rated, 20.0, LEAST, Bases::SI);
+    let mut limit = ForceLimitConfig::<f64>::new(&design, rated, 20.0, LEAST, Bases::SI);
     let mut watch = ForceLimit::default();
     let mut observer = ToolObserver::<f64>::steady(&config, 0, 20.0, 100.0);
     observer.home(&config, (homed / TAU * 4_294_967_296.0) as i64 as u32);
-    let accuracy = ForceAccuracy { idle: 4.0, relative: 0.01, angle: 1e-3 };
+    let accuracy = ForceAccuracy { idle: 1.0, relative: 0.01, angle: 1e-3 };
     let force = |crank: f64| {
         let way = ((crank - middle) / over + 0.5).rem_euclid(TAU / over);
-        if way < 1.0 { peak * rated * (PI * way).sin().powi(2) } else { 0.0 }
+        if crank >= 2.0 * TAU && way < 1.0 { peak * rated * (PI * way).sin().powi(2) } else { 0.0 }
     };
     // against the tool's motion, forwards or backwards
     let against = |crank: f64| force(crank) * leverage.at(middle).signum();
@@ -105,8 +106,8 @@ fn stroke(drawn: &Drawn, encoder: (u32, f64), peak: f64, noise: &mut Noise) -> F
         })
     };
     let (mut torque, mut errors, mut beyond) = (20.0, Vec::new(), 0.0);
-    let (mut exceeded, mut stopped, mut recent) = (None, None, VecDeque::new());
-    for tick in 0..RATE_HZ * 13 / 10 {
+    let (mut exceeded, mut stopped, mut recent, mut idle) = (None, None, VecDeque::new(), Vec::new());
+    for tick in 0..RATE_HZ * 26 / 10 {
         let crank = press.angle(1);
         press.set_torque(0, torque * gain);
         press.set_torque(1, -against(crank) * leverage.at(crank));
@@ -118,14 +119,17 @@ fn stroke(drawn: &Drawn, encoder: (u32, f64), peak: f64, noise: &mut Noise) -> F
         torque = (20.0 + 10.0 * (100.0 - estimate.motor_speed)).clamp(-400.0, 400.0);
         let angle = f64::from(observer.crank_angle(&config)) / 4_294_967_296.0 * TAU;
         recent.push_back([angle, estimate.motor_speed, estimate.load_torque]);
-        // the observer has settled
-        if tick < RATE_HZ / 20 {
+        if press.angle(1) < 2.0 * TAU {
+            if press.angle(1) >= TAU {
+                idle.push(estimate.load_torque);
+                limit.idle = idle.iter().sum::<f64>() / idle.len() as f64;
+            }
             continue;
         }
         recent.drain(..recent.len() - AVERAGED);
         let mean = recent.iter().map(|of| of[2]).sum::<f64>() / AVERAGED as f64;
         let [angle, speed, _] = recent[AVERAGED / 2];
-        let [at, found, deviation] = design.tool_force(angle, speed, mean - 20.0, &accuracy);
+        let [at, found, deviation] = design.tool_force(angle, speed, mean - limit.idle, &accuracy);
         // the truth at the angle of the reading, of the turn that it belongs to
         let here = at + TAU * ((press.angle(1) - at) / TAU).round() - homed;
         if !blind(here) {
@@ -154,7 +158,8 @@ fn stroke(drawn: &Drawn, encoder: (u32, f64), peak: f64, noise: &mut Noise) -> F
     }
 }
 
-/// Drawn presses of every law at four fifths of the rated force, each within 3 % of it in 99 % of the ticks.
+/// Drawn presses of every law at four fifths of the rated force, each within 2 % of it in 99 % of the ticks: the torque
+/// constant alone is unknown by that.
 fn presses(each: usize, encoder: (u32, f64)) {
     let mut noise = Noise::new(47);
     for law in LAWS {
@@ -164,7 +169,7 @@ fn presses(each: usize, encoder: (u32, f64)) {
         let (most, largest, rms) = (worst(|found| found.most), worst(|found| found.largest), worst(|found| found.rms));
         let beyond = all.iter().map(|found| found.beyond).sum::<f64>() / each as f64;
         println!("{law}: 99 % within {most:.4}, largest {largest:.4}, rms {rms:.4}; {beyond:.4} beyond 3 deviations");
-        assert!(most < 0.03, "{law}: {most}");
+        assert!(most < 0.02, "{law}: {most}");
         assert!(all.iter().all(|found| found.stop.is_none()), "{law}: a stop below the limit");
         // of a normal distribution 0.003; the uniform tolerances of the draw are a deviation each at most
         assert!(beyond < 0.01, "{law}: {beyond}");
