@@ -8,7 +8,6 @@ mod main_mode;
 mod need;
 mod prime_mover;
 mod section;
-mod starting;
 mod starting_time;
 mod train;
 mod train_damper;

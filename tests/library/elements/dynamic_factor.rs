@@ -101,3 +101,15 @@ fn reversals_and_loss_of_the_load_through_the_gap() {
     assert_eq!(turned["events"][1]["new"], 1, "{turned}");
     assert_eq!(crane.reversal_torque(Torque(120.0), Torque(-200.0), Torque(120.0)).0, 0.0);
 }
+
+/// A gap crossed at a relative speed and nothing else: the whole energy goes into the shaft. The speed is that of the
+/// transient solved with 40 digits.
+#[test]
+fn impact_of_a_gap() {
+    let case = case("backlash_transients.json", "D4_crane_slack_gap_friction_const");
+    let speed = case["closed_form"]["impact_speed_rad_s"].as_f64().unwrap();
+    let at = |key: &str| case[key].as_f64().unwrap();
+    assert_eq!(["J1_kg_m2", "J2_kg_m2", "c_Nm_rad"].map(at), [1.2, 0.35, 850.0]);
+    let crane = MILL.with_gap(Gap(at("gap_total_rad")));
+    close(crane.impact_torque(speed).0, (850.0_f64 * 1.2 * 0.35 / 1.55).sqrt() * speed, 1e-14);
+}

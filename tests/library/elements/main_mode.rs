@@ -3,20 +3,14 @@
 use driveline::machine::{Chain, Damping, Inertia, Match, Ratio, Stiffness, Train, TwoMass};
 use nalgebra::Complex;
 
+use crate::balance::noise::Noise;
+use crate::machine::chain;
 use crate::references::close;
 
 const ONE: Ratio = Ratio(1.0);
 
 /// Loss factor of every spring: 2 % of critical damping at each resonance, which keeps the peaks finite.
 const LOSS: Complex<f64> = Complex { re: 1.0, im: 0.04 };
-
-fn chain(inertia: &[f64], stiffness: &[f64]) -> Chain {
-    let mut chain = Chain::motor(Inertia(inertia[0]));
-    for (j, k) in inertia[1..].iter().zip(stiffness) {
-        chain = chain.shaft(Stiffness(*k), Damping(0.0)).rotor(Inertia(*j));
-    }
-    chain
-}
 
 /// Inertia that turns at the other end of a spring, at a frequency: `k X/(k - omega^2 X)`.
 fn through(stiffness: f64, inertia: Complex<f64>, omega: f64) -> Complex<f64> {
@@ -105,20 +99,13 @@ fn nearly_equal_branches_join() {
     }
 }
 
-/// A generator of numbers between 0 and 1 with a fixed seed.
-struct Random(u64);
+/// Machines at random.
+struct Random(Noise);
 
 impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
     /// Even in its logarithm.
     fn between(&mut self, least: f64, most: f64) -> f64 {
-        least * (most / least).powf(self.next())
+        least * (most / least).powf(self.0.even())
     }
 
     fn inertias(&mut self, count: usize) -> Vec<f64> {
@@ -130,7 +117,7 @@ impl Random {
     }
 
     fn below(&mut self, count: usize) -> usize {
-        (self.next() * count as f64) as usize
+        (self.0.even() * count as f64) as usize
     }
 
     fn chain(&mut self) -> Train {
@@ -144,7 +131,7 @@ impl Random {
         let mut train = Train::of(chain(&self.inertias(masses), &self.stiffnesses(masses - 1)));
         let (j, k) = (self.between(0.05, 2.0), self.between(1e3, 1e5));
         for _ in 0..2 + self.below(2) {
-            let mut near = |value: f64| value * (0.85 + 0.3 * self.next());
+            let mut near = |value: f64| value * (0.85 + 0.3 * self.0.even());
             let (at, j, k) = if alike {
                 (masses - 1, near(j), near(k))
             } else {
@@ -161,7 +148,7 @@ impl Random {
 /// 0.37.
 #[test]
 fn main_mode_of_random_trains() {
-    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    let mut random = Random(Noise::new(1));
     // Limits are a tenth above the means, which are of these machines.
     for (name, limit, gain) in [("chains", 0.38, 1.5), ("alike", 0.14, 8.0), ("branched", 0.41, 1.5)] {
         let (mut old, mut new, mut worst) = (0.0, 0.0, 0.0_f64);

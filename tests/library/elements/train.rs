@@ -6,17 +6,10 @@ use driveline::machine::{
 };
 use nalgebra::DMatrix;
 
+use crate::machine::chain;
 use crate::references::{case, close, data, meets};
 
 const ONE: Ratio = Ratio(1.0);
-
-fn chain(inertia: &[f64], stiffness: &[f64]) -> Chain {
-    let mut chain = Chain::motor(Inertia(inertia[0]));
-    for (j, k) in inertia[1..].iter().zip(stiffness) {
-        chain = chain.shaft(Stiffness(*k), Damping(0.0)).rotor(Inertia(*j));
-    }
-    chain
-}
 
 /// Friswell et al., Dynamics of Rotating Machines, example 9.6.3: an engine, and two propellers behind gears.
 #[test]

@@ -3,10 +3,11 @@
 use std::f64::consts::TAU;
 
 use driveline::machine::{
-    Belt, Chain, Diameter, Efficiency, Error, Inertia, Length, LinearDamping, Mass, Match, Member, Planetary,
-    PlanetaryGear, Ratio, STANDARD_GRAVITY, Stiffness,
+    Belt, Chain, Diameter, Efficiency, Error, Inertia, Length, LinearDamping, Mass, Match, Member, PlanetaryGear,
+    Ratio, STANDARD_GRAVITY, Stiffness,
 };
 
+use crate::machine::planetary;
 use crate::references::{case, close, meets};
 
 /// A handful of roundings.
@@ -78,24 +79,6 @@ fn two_worms_that_lock_do_not_drive_each_other() {
     }
 }
 
-#[test]
-fn a_planetary_set_at_its_carrier() {
-    let case = case("textbook_examples.json", "S07_planetary_1");
-    let at = |key: &str| case[key].as_f64().unwrap();
-    let set = Planetary {
-        sun_teeth: at("z_sun") as u32,
-        ring_teeth: at("z_ring") as u32,
-        module: at("module_m"),
-        planets: at("planets") as u32,
-        sun: Inertia(at("J_sun")),
-        planet: Inertia(at("J_planet_own_axis")),
-        planet_mass: Mass(at("m_planet")),
-        carrier: Inertia(at("J_carrier")),
-        efficiency: Efficiency(0.97),
-    };
-    meets(set.inertia_at_sun() * set.ratio().powi(2), &case["expected_J_at_carrier"], 1e-12);
-}
-
 /// Any member driven and any other held, against the speeds at the pitch points and the kinetic energy: with radii of
 /// sun and planet, `v` the speed of a planet's pin, the sun's rim moves at `v - w r_planet`, the ring's at
 /// `v + w r_planet`.
@@ -104,17 +87,7 @@ fn a_planetary_set_with_any_member_held() {
     let case = case("textbook_examples.json", "S07_planetary_1");
     let at = |key: &str| case[key].as_f64().unwrap();
     let (sun_teeth, ring_teeth, module) = (at("z_sun"), at("z_ring"), at("module_m"));
-    let set = Planetary {
-        sun_teeth: sun_teeth as u32,
-        ring_teeth: ring_teeth as u32,
-        module,
-        planets: at("planets") as u32,
-        sun: Inertia(at("J_sun")),
-        planet: Inertia(at("J_planet_own_axis")),
-        planet_mass: Mass(at("m_planet")),
-        carrier: Inertia(at("J_carrier")),
-        efficiency: Efficiency(0.97),
-    };
+    let set = planetary(&case);
     let ring = 0.4;
     let (sun_radius, planet_radius) = (0.5 * module * sun_teeth, 0.5 * module * at("z_planet"));
     let (pin_radius, ring_radius) = (sun_radius + planet_radius, 0.5 * module * ring_teeth);
@@ -122,24 +95,13 @@ fn a_planetary_set_with_any_member_held() {
     for (driven, held) in [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)] {
         let gear = PlanetaryGear { set, ring: Inertia(ring), input: members[driven], held: members[held] };
         // speeds of sun, ring, carrier and planet
-        let mut matrix = nalgebra::Matrix4::from_row_slice(&[
-            sun_radius,
-            0.0,
-            -pin_radius,
-            planet_radius, //
-            0.0,
-            ring_radius,
-            -pin_radius,
-            -planet_radius, //
-            0.0,
-            0.0,
-            0.0,
-            0.0, //
-            0.0,
-            0.0,
-            0.0,
-            0.0,
-        ]);
+        let pins = [
+            [sun_radius, 0.0, -pin_radius, planet_radius],
+            [0.0, ring_radius, -pin_radius, -planet_radius],
+            [0.0; 4],
+            [0.0; 4],
+        ];
+        let mut matrix = nalgebra::Matrix4::from(pins).transpose();
         (matrix[(2, driven)], matrix[(3, held)]) = (1.0, 1.0);
         let speeds = matrix.lu().solve(&nalgebra::Vector4::new(0.0, 0.0, 1.0, 0.0)).unwrap();
         let pin = speeds[2] * pin_radius;

@@ -2,31 +2,29 @@
 
 use driveline::machine::{
     Chain, Damping, Diameter, Efficiency, Element, Error, Falls, Flow, Gap, Inertia, Length, LinearDamping, Mass,
-    Match, Planetary, Ratio, STANDARD_GRAVITY, Side, Stiffness, TwoMass, refer_gap, refer_inertia, refer_stiffness,
+    Match, Ratio, STANDARD_GRAVITY, Side, Stiffness, TwoMass, refer_gap, refer_inertia, refer_stiffness,
 };
 use serde_json::Value;
 
-fn data(name: &str) -> Value {
-    let path = format!("{}/tests/data/{name}", env!("CARGO_MANIFEST_DIR"));
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
-
-fn example(id: &str) -> Value {
-    let file = data("textbook_examples.json");
-    file["cases"].as_array().unwrap().iter().find(|case| case["id"] == id).unwrap().clone()
-}
+use super::{chain, damped_chain, planetary};
+use crate::references::{case, data, meets};
 
 /// The tolerance of the example files: a handful of roundings, with room.
 const TEXTBOOK: f64 = 1e-12;
 
+#[track_caller]
 fn near(found: f64, expected: &Value) {
-    let expected = expected.as_f64().unwrap();
-    assert!((found / expected - 1.0).abs() < TEXTBOOK, "{found}, not {expected}");
+    meets(found, expected, TEXTBOOK);
+}
+
+/// Four masses, whose vibrations are as many as a reduction leaves out and one.
+fn four_masses(damping: f64) -> Chain {
+    damped_chain(&[0.4, 0.05, 0.2, 0.7], &[2.0e4, 9.0e3, 4.0e4], damping)
 }
 
 #[test]
 fn huang_hoist() {
-    let case = example("S06_hoist_1");
+    let case = case("textbook_examples.json", "S06_hoist_1");
     let at = |key: &str| case[key].as_f64().unwrap();
     let hoist = |chain: Chain| {
         chain
@@ -50,7 +48,7 @@ fn huang_hoist() {
 
 #[test]
 fn wang_gears_from_either_side() {
-    let case = example("S04_geared_1");
+    let case = case("textbook_examples.json", "S04_geared_1");
     let at = |key: &str| case[key].as_f64().unwrap();
     let (i, one) = (at("i"), Efficiency(1.0));
     let chain = Chain::motor(Inertia(at("J1")))
@@ -90,32 +88,21 @@ fn chain_of_gears(case: &Value) -> Chain {
 
 #[test]
 fn wang_planetary_set() {
-    let case = example("S07_planetary_1");
-    let at = |key: &str| case[key].as_f64().unwrap();
-    let set = Planetary {
-        sun_teeth: at("z_sun") as u32,
-        ring_teeth: at("z_ring") as u32,
-        module: at("module_m"),
-        planets: at("planets") as u32,
-        sun: Inertia(at("J_sun")),
-        planet: Inertia(at("J_planet_own_axis")),
-        planet_mass: Mass(at("m_planet")),
-        carrier: Inertia(at("J_carrier")),
-        efficiency: Efficiency(0.97),
-    };
+    let case = case("textbook_examples.json", "S07_planetary_1");
+    let set = planetary(&case);
     near(1.0 / set.ratio(), &case["expected_wH_over_w1"]);
     near(set.planet_speed(), &case["expected_w2_over_w1_signed"]);
     near(set.inertia_at_sun(), &case["expected_J_at_sun"]);
     let chain = Chain::motor(Inertia(1.0)).planetary(set);
     assert_eq!(chain.ratio(), set.ratio());
     near(chain.total_inertia() - 1.0, &case["expected_J_at_sun"]);
+    near(set.inertia_at_sun() * set.ratio().powi(2), &case["expected_J_at_carrier"]);
 }
 
 /// openTorsion's geared and damped example (`examples/transient_simulation.py`), referred by the chain itself.
 #[test]
 fn open_torsion_geared_chain() {
-    let file = data("torsional_modes.json");
-    let case = file["cases"].as_array().unwrap().iter().find(|c| c["id"] == "A15_ot_transient_geared_damped").unwrap();
+    let case = case("torsional_modes.json", "A15_ot_transient_geared_damped");
     let chain = Chain::motor(Inertia(0.5))
         .shaft(Stiffness(5000.0), Damping(10.0))
         .rotor(Inertia(0.1))
@@ -192,10 +179,7 @@ fn nothing_between_two_shafts_makes_them_one() {
 #[test]
 fn modal_damping_survives_the_reduction() {
     let beta = 1e-4;
-    let mut chain = Chain::motor(Inertia(0.4));
-    for (j, k) in [(0.05, 2.0e4), (0.2, 9.0e3), (0.7, 4.0e4)] {
-        chain = chain.shaft(Stiffness(k), Damping(beta * k)).rotor(Inertia(j));
-    }
+    let chain = four_masses(beta);
     for by in [Match::ResonanceAntiresonance, Match::ModalTruncation] {
         let two = chain.reduce(by);
         assert!((two.damping_ratio() / (0.5 * beta * two.resonance()) - 1.0).abs() < 1e-12);
@@ -209,10 +193,7 @@ fn modal_damping_survives_the_reduction() {
 /// Mode shapes are mass-normalised, and their residues add up to the static compliance computed from the torques.
 #[test]
 fn residues_add_up_to_the_static_give() {
-    let mut chain = Chain::motor(Inertia(0.4));
-    for (j, k) in [(0.05, 2.0e4), (0.2, 9.0e3), (0.7, 4.0e4)] {
-        chain = chain.shaft(Stiffness(k), Damping(0.0)).rotor(Inertia(j));
-    }
+    let chain = four_masses(0.0);
     let modes = chain.modes();
     let mut give = 0.0;
     for mode in modes.resonances() {
@@ -226,10 +207,7 @@ fn residues_add_up_to_the_static_give() {
 /// The bound holds: the motor's speed after a blow, by all modes and by two masses, over a hundred periods.
 #[test]
 fn worst_case_bounds_the_answer_to_a_blow() {
-    let mut chain = Chain::motor(Inertia(0.4));
-    for (j, k) in [(0.05, 2.0e4), (0.2, 9.0e3), (0.7, 4.0e4)] {
-        chain = chain.shaft(Stiffness(k), Damping(0.0)).rotor(Inertia(j));
-    }
+    let chain = four_masses(0.0);
     let (modes, total) = (chain.modes(), chain.total_inertia());
     let cuts = [Match::ResonanceAntiresonance, Match::ModalTruncation, Match::TextbookCut(1), Match::TextbookShaft(1)];
     for by in cuts {
@@ -250,20 +228,13 @@ fn worst_case_bounds_the_answer_to_a_blow() {
 /// Each part left out by hand gives the change that the table tells.
 #[test]
 fn sensitivity_to_each_part() {
-    let build = |inertia: &[f64], stiffness: &[f64]| {
-        let mut chain = Chain::motor(Inertia(inertia[0]));
-        for (j, k) in inertia[1..].iter().zip(stiffness) {
-            chain = chain.shaft(Stiffness(*k), Damping(0.0)).rotor(Inertia(*j));
-        }
-        chain
-    };
-    let whole = build(&[0.4, 0.05, 0.7], &[2.0e4, 9.0e3]);
+    let whole = chain(&[0.4, 0.05, 0.7], &[2.0e4, 9.0e3]);
     let series = 1.0 / (1.0 / 2.0e4 + 1.0 / 9.0e3);
     let expected = [
-        (Element::Shaft(0), build(&[0.45, 0.7], &[9.0e3])),
-        (Element::Shaft(1), build(&[0.4, 0.75], &[2.0e4])),
-        (Element::Mass(1), build(&[0.4, 0.7], &[series])),
-        (Element::Mass(2), build(&[0.4, 0.05], &[2.0e4])),
+        (Element::Shaft(0), chain(&[0.45, 0.7], &[9.0e3])),
+        (Element::Shaft(1), chain(&[0.4, 0.75], &[2.0e4])),
+        (Element::Mass(1), chain(&[0.4, 0.7], &[series])),
+        (Element::Mass(2), chain(&[0.4, 0.05], &[2.0e4])),
     ];
     let worth = whole.sensitivity();
     assert_eq!(worth.parts().len(), expected.len());

@@ -1,15 +1,12 @@
 //! Elementary functions against 60-digit arithmetic, and the square root against the processor's.
 
 use driveline::math::{atan2, exp, exp_m1, hypot, ln, sin_cos, sqrt};
-use serde_json::Value;
+
+use crate::references::data;
 
 fn rows(key: &str) -> Vec<Vec<f64>> {
-    let path = format!("{}/tests/data/elementary.json", env!("CARGO_MANIFEST_DIR"));
-    let file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
-    let rows = file[key].as_array().unwrap();
-    rows.iter()
-        .map(|row| row.as_array().unwrap().iter().map(|x| x.as_str().unwrap().parse().unwrap()).collect())
-        .collect()
+    let rows: Vec<Vec<String>> = serde_json::from_value(data("elementary.json")[key].clone()).unwrap();
+    rows.iter().map(|row| row.iter().map(|x| x.parse().unwrap()).collect()).collect()
 }
 
 /// Difference in units of the last place of the expected value.
