@@ -6,14 +6,10 @@ use nalgebra::{convert, try_convert};
 use serde_json::Value;
 
 use super::noise::Noise;
+use crate::references::data;
 
 type Problem<T> = Influence<T, 8, 4>;
 type Rule<T> = Aim<T, 8, 4>;
-
-fn data(name: &str) -> Value {
-    let path = format!("{}/tests/data/{name}", env!("CARGO_MANIFEST_DIR"));
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
 
 /// Amplitude and phase in degrees as a complex number, rounded to the number type once.
 fn polar<T: Scalar>(value: &Value) -> Complex<T> {

@@ -6,11 +6,7 @@ use driveline::balancing::{BalanceTolerance, Complex, Entry, Error, GRADES, degr
 use serde_json::Value;
 
 use super::noise::Noise;
-
-fn data() -> Value {
-    let path = format!("{}/tests/data/balance_tolerance.json", env!("CARGO_MANIFEST_DIR"));
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
+use crate::references::data;
 
 fn number(case: &Value, key: &str) -> f64 {
     case[key].as_f64().unwrap()
@@ -19,8 +15,7 @@ fn number(case: &Value, key: &str) -> f64 {
 /// 1e-12, as the cases state it; g mm are 1e-6 kg m.
 #[test]
 fn permissible_unbalance_and_its_split() {
-    let data = data();
-    for case in data["tolerance_cases"].as_array().unwrap() {
+    for case in data("balance_tolerance.json")["tolerance_cases"].as_array().unwrap() {
         let tolerance = BalanceTolerance {
             grade: number(case, "G_mm_s"),
             mass: number(case, "mass_kg"),
@@ -58,8 +53,7 @@ fn permissible_unbalance_and_its_split() {
 
 #[test]
 fn unbalances_resolved_into_two_planes() {
-    let data = data();
-    for case in data["two_plane_rigid_cases"].as_array().unwrap() {
+    for case in data("balance_tolerance.json")["two_plane_rigid_cases"].as_array().unwrap() {
         let items = case["items_mass_g_radius_mm_angle_deg_z_mm"].as_array().unwrap().iter().map(|item| {
             let at = |index: usize| item[index].as_f64().unwrap();
             (Complex::from_polar(at(0) * at(1), at(2).to_radians()), at(3))

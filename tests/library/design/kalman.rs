@@ -3,22 +3,11 @@
 use driveline::design::{Kalman, Matrix};
 use serde_json::Value;
 
-fn matrix<const R: usize, const C: usize>(value: &Value) -> Matrix<R, C> {
-    let mut out = Matrix::ZERO;
-    for i in 0..R {
-        for j in 0..C {
-            out.0[i][j] = value[i][j].as_f64().unwrap();
-        }
-    }
-    out
-}
+use super::{matrix, number};
+use crate::references::data;
 
 fn diagonal<const N: usize>(value: &Value) -> Matrix<N, N> {
-    let mut values = [0.0; N];
-    for (i, slot) in values.iter_mut().enumerate() {
-        *slot = value[i].as_f64().unwrap();
-    }
-    Matrix::diagonal(&values)
+    Matrix::diagonal(&core::array::from_fn(|i| number(&value[i])))
 }
 
 /// Largest relative difference of the elements.
@@ -43,22 +32,18 @@ fn meets<const M: usize>(case: &Value) {
     // The file's own tolerance for the gains; the covariances are held to the same.
     let limit = case["rel_tol_gain"].as_f64().unwrap();
     assert!(errors.iter().all(|error| *error < limit));
-    for (pole, expected) in found.poles.iter().zip(case["observer_poles_re_im"].as_array().unwrap()) {
+    let known = case["observer_poles_re_im"].as_array().unwrap();
+    for pole in found.poles {
         // Poles come in pairs that lie close together: half the digits of the gains remain in the worst case.
-        let known = case["observer_poles_re_im"].as_array().unwrap();
-        let near = known
-            .iter()
-            .map(|p| (pole.0 - p[0].as_f64().unwrap()).hypot(pole.1 - p[1].as_f64().unwrap()))
-            .fold(f64::INFINITY, f64::min);
-        assert!(near < 1e-9, "{pole:?}, {expected}");
+        let near =
+            known.iter().map(|p| (pole.0 - number(&p[0])).hypot(pole.1 - number(&p[1]))).fold(f64::INFINITY, f64::min);
+        assert!(near < 1e-9, "{pole:?}, {known:?}");
     }
 }
 
 #[test]
 fn gains_meet_the_reference() {
-    let path = format!("{}/tests/data/kalman_gains.json", env!("CARGO_MANIFEST_DIR"));
-    let file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
-    for case in file["cases"].as_array().unwrap() {
+    for case in data("kalman_gains.json")["cases"].as_array().unwrap() {
         match case["H"].as_array().unwrap().len() {
             1 => meets::<1>(case),
             2 => meets::<2>(case),

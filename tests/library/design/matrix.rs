@@ -1,7 +1,9 @@
 //! Small matrices, their exponential, eigenvalues and Riccati equations, against closed forms.
 
 use driveline::design::{Error, Kalman, Matrix, discretise, doubling, eigenvalues, exponential, spectral_radius};
-use serde_json::Value;
+
+use super::number;
+use crate::references::data;
 
 fn largest<const R: usize, const C: usize>(m: &Matrix<R, C>) -> f64 {
     m.0.iter().flatten().fold(0.0, |a: f64, x| a.max(x.abs()))
@@ -66,11 +68,9 @@ fn exponential_has_its_closed_forms() {
 /// hundred times critical damping.
 #[test]
 fn discretise_at_huge_norms() {
-    let path = format!("{}/tests/data/exact_step.json", env!("CARGO_MANIFEST_DIR"));
-    let file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
     let mut worst: f64 = 0.0;
-    for case in file["cases"].as_array().unwrap() {
-        let at = |key: &str| case[key].as_str().unwrap().parse::<f64>().unwrap();
+    for case in data("exact_step.json")["cases"].as_array().unwrap() {
+        let at = |key: &str| number(&case[key]);
         let (w2, two_a, t) = (at("w2"), at("two_a"), at("period"));
         let unit = w2.sqrt().max(1.0 / t);
         let (f, _) = discretise::<2, 1, 3>(&Matrix([[0.0, 1.0], [-w2, -two_a]]), &Matrix([[0.0], [1.0]]), t).unwrap();

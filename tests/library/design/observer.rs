@@ -4,14 +4,13 @@ use driveline::design::{Disturbance, Encoder, Error, Rate};
 use driveline::machine::{Damping, Inertia, Rigid, Stiffness, TwoMass};
 use serde_json::Value;
 
+use super::number;
+use crate::references::data;
+
 const DISTURBANCE: Disturbance = Disturbance { torque_accuracy: 0.5, load_torque_step: 50.0, within: 0.05 };
 
-fn number(value: &Value, key: &str) -> f64 {
-    value[key].as_str().unwrap().parse().unwrap()
-}
-
 fn numbers(value: &Value) -> Vec<f64> {
-    value.as_array().unwrap().iter().map(|x| x.as_str().unwrap().parse().unwrap()).collect()
+    value.as_array().unwrap().iter().map(number).collect()
 }
 
 fn apart(found: f64, expected: f64) -> f64 {
@@ -20,10 +19,8 @@ fn apart(found: f64, expected: f64) -> f64 {
 
 #[test]
 fn observers_meet_seventy_digits() {
-    let path = format!("{}/tests/data/observers.json", env!("CARGO_MANIFEST_DIR"));
-    let file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
-    for case in file["cases"].as_array().unwrap() {
-        let at = |key| number(case, key);
+    for case in data("observers.json")["cases"].as_array().unwrap() {
+        let at = |key: &str| number(&case[key]);
         let machine = TwoMass::new(Inertia(at("J_motor")), Inertia(at("J_load")), Stiffness(at("k")), Damping(at("d")));
         let disturbance = Disturbance {
             torque_accuracy: at("torque_accuracy"),

@@ -2,36 +2,28 @@
 
 use driveline::design::{ExactStep, Matrix, discretise};
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
-use serde_json::Value;
 
-fn data(name: &str) -> Value {
-    let path = format!("{}/tests/data/{name}", env!("CARGO_MANIFEST_DIR"));
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
-
-fn number(value: &Value, key: &str) -> f64 {
-    let value = &value[key];
-    value.as_f64().unwrap_or_else(|| value.as_str().unwrap().parse().unwrap())
-}
+use super::{matrix, number};
+use crate::references::data;
 
 /// Each coefficient in the energy norm, twist in `1/w` and slip in 1, against the size of the whole step.
 #[test]
 fn exact_step_meets_its_closed_form() {
     let mut worst: f64 = 0.0;
     for case in data("exact_step.json")["cases"].as_array().unwrap() {
-        let (w2, two_a, t) = (number(case, "w2"), number(case, "two_a"), number(case, "period"));
+        let (w2, two_a, t) = (number(&case["w2"]), number(&case["two_a"]), number(&case["period"]));
         let step = ExactStep::from_rates(w2, two_a, t);
         let w = w2.sqrt();
         // A step of s moves the slip by at most T and the twist by at most T/w or T^2.
         let reach = if w * t > 1.0 { t / w } else { t * t };
         let errors = [
-            (step.n11 - number(case, "n11")).abs(),
-            (step.n12 - number(case, "g2")).abs() * w.max(1.0 / t),
-            (step.n21 - number(case, "n21")).abs() / w.max(1.0 / t),
-            (step.n22 - number(case, "n22")).abs(),
-            (step.g1 - number(case, "g1")).abs() / reach,
-            (step.g2 - number(case, "g2")).abs() / t,
-            (step.lag - number(case, "lag")).abs() / t,
+            (step.n11 - number(&case["n11"])).abs(),
+            (step.n12 - number(&case["g2"])).abs() * w.max(1.0 / t),
+            (step.n21 - number(&case["n21"])).abs() / w.max(1.0 / t),
+            (step.n22 - number(&case["n22"])).abs(),
+            (step.g1 - number(&case["g1"])).abs() / reach,
+            (step.g2 - number(&case["g2"])).abs() / t,
+            (step.lag - number(&case["lag"])).abs() / t,
         ];
         let error = errors.iter().copied().fold(0.0, f64::max) / (w * t).max(1.0);
         worst = worst.max(error);
@@ -46,7 +38,7 @@ fn exact_step_meets_its_closed_form() {
 fn exact_step_keeps_the_digits_of_each_coefficient() {
     let mut worst: f64 = 0.0;
     for case in data("exact_step.json")["cases"].as_array().unwrap() {
-        let (w2, two_a, t) = (number(case, "w2"), number(case, "two_a"), number(case, "period"));
+        let (w2, two_a, t) = (number(&case["w2"]), number(&case["two_a"]), number(&case["period"]));
         // Beyond a quarter turn sines and 1 - cosines pass through zero, where a relative error has no meaning;
         // a decay e^-x magnifies the rounding of its argument by x.
         if w2.sqrt() * t > 1.5 || two_a * t > 10.0 {
@@ -62,7 +54,7 @@ fn exact_step_keeps_the_digits_of_each_coefficient() {
             (step.g2, "g2"),
             (step.lag, "lag"),
         ] {
-            let expected = number(case, key);
+            let expected = number(&case[key]);
             let error = if expected == 0.0 { value.abs() } else { (value / expected - 1.0).abs() };
             worst = worst.max(error);
             // Ten to twenty roundings of 1.1e-16 each.
@@ -77,16 +69,6 @@ fn exact_step_keeps_the_digits_of_each_coefficient() {
     println!("exact step: worst relative error of a coefficient {worst:e}");
 }
 
-fn matrix<const R: usize, const C: usize>(value: &Value) -> Matrix<R, C> {
-    let mut out = Matrix::ZERO;
-    for i in 0..R {
-        for j in 0..C {
-            out.0[i][j] = value[i][j].as_f64().unwrap();
-        }
-    }
-    out
-}
-
 fn frobenius<const R: usize, const C: usize>(m: &Matrix<R, C>) -> f64 {
     m.0.iter().flatten().map(|x| x * x).sum::<f64>().sqrt()
 }
@@ -95,26 +77,32 @@ fn column(m: &Matrix<3, 2>, j: usize, s: &[f64; 3]) -> f64 {
     (0..3).map(|i| (m.0[i][j] * s[i]).powi(2)).sum::<f64>().sqrt()
 }
 
+/// Errors of transition and input by the metric of the file, in states of such sizes.
+fn errors(f: &Matrix<3, 3>, g: &Matrix<3, 2>, form: &serde_json::Value, s: &[f64; 3]) -> [f64; 2] {
+    let (ad, bd) = (matrix::<3, 3>(&form["Ad"]), matrix::<3, 2>(&form["Bd"]));
+    let miss = g.plus(-1.0, &bd);
+    let input = (0..2).map(|j| column(&miss, j, s) / column(&bd, j, s)).fold(0.0, f64::max);
+    [frobenius(&f.plus(-1.0, &ad).scaled(s, s)) / frobenius(&ad.scaled(s, s)), input]
+}
+
 /// The general exponential, in both forms, by the error metric of the file.
 #[test]
 fn discretise_meets_the_reference_matrices() {
     for case in data("discretisation.json")["cases"].as_array().unwrap() {
         let s = [
-            number(case, "J_motor_kg_m2").sqrt(),
-            1.0 / number(case, "k_Nm_rad").sqrt(),
-            number(case, "J_load_kg_m2").sqrt(),
+            number(&case["J_motor_kg_m2"]).sqrt(),
+            1.0 / number(&case["k_Nm_rad"]).sqrt(),
+            number(&case["J_load_kg_m2"]).sqrt(),
         ];
         for form in ["elastic", "total"] {
             let form = &case[form];
             if form.is_string() {
                 continue;
             }
-            let (ad, bd) = (matrix::<3, 3>(&form["Ad"]), matrix::<3, 2>(&form["Bd"]));
-            let (f, g) = discretise::<3, 2, 5>(&matrix(&form["A"]), &matrix(&form["B"]), number(case, "Ts_s")).unwrap();
-            let error_a = frobenius(&f.plus(-1.0, &ad).scaled(&s, &s)) / frobenius(&ad.scaled(&s, &s));
-            let miss = g.plus(-1.0, &bd);
-            let error_b = (0..2).map(|j| column(&miss, j, &s) / column(&bd, j, &s)).fold(0.0, f64::max);
-            let limit = 1e-14 * number(case, "omega_Ts_rad").max(1.0);
+            let (f, g) =
+                discretise::<3, 2, 5>(&matrix(&form["A"]), &matrix(&form["B"]), number(&case["Ts_s"])).unwrap();
+            let [error_a, error_b] = errors(&f, &g, form, &s);
+            let limit = 1e-14 * number(&case["omega_Ts_rad"]).max(1.0);
             println!("{}: A {error_a:e} B {error_b:e}, limit {limit:e}", case["id"]);
             // The limit is the file's own: the rounding of the argument.
             assert!(error_a < limit && error_b < limit);
@@ -126,12 +114,12 @@ fn discretise_meets_the_reference_matrices() {
 #[test]
 fn exact_step_meets_the_reference_matrices() {
     for case in data("discretisation.json")["cases"].as_array().unwrap() {
-        if number(case, "b_motor_Nms_rad") != 0.0 {
+        if number(&case["b_motor_Nms_rad"]) != 0.0 {
             continue;
         }
-        let (jm, jl, k) = (number(case, "J_motor_kg_m2"), number(case, "J_load_kg_m2"), number(case, "k_Nm_rad"));
-        let machine = TwoMass::new(Inertia(jm), Inertia(jl), Stiffness(k), Damping(number(case, "d_Nms_rad")));
-        let t = number(case, "Ts_s");
+        let (jm, jl, k) = (number(&case["J_motor_kg_m2"]), number(&case["J_load_kg_m2"]), number(&case["k_Nm_rad"]));
+        let machine = TwoMass::new(Inertia(jm), Inertia(jl), Stiffness(k), Damping(number(&case["d_Nms_rad"])));
+        let t = number(&case["Ts_s"]);
         let step = ExactStep::new(&machine, t);
         // the shaft's impulse from motor to load, by twist, twist rate and forcing
         let [h_twist, h_slip, h_drive] = [-step.n21, -step.n22, step.lag].map(|each| jm * jl / (jm + jl) * each);
@@ -147,10 +135,7 @@ fn exact_step_meets_the_reference_matrices() {
             [h_drive / jl / jm, -(t - h_drive / jl) / jl],
         ]);
         let s = [jm.sqrt(), 1.0 / k.sqrt(), jl.sqrt()];
-        let (ad, bd) = (matrix::<3, 3>(&case["elastic"]["Ad"]), matrix::<3, 2>(&case["elastic"]["Bd"]));
-        let error_a = frobenius(&f.plus(-1.0, &ad).scaled(&s, &s)) / frobenius(&ad.scaled(&s, &s));
-        let miss = g.plus(-1.0, &bd);
-        let error_b = (0..2).map(|j| column(&miss, j, &s) / column(&bd, j, &s)).fold(0.0, f64::max);
+        let [error_a, error_b] = errors(&f, &g, &case["elastic"], &s);
         println!("{}: A {error_a:e} B {error_b:e}", case["id"]);
         // A handful of roundings; the file allows 1e-14.
         assert!(error_a < 2e-15 && error_b < 2e-15);
