@@ -10,6 +10,7 @@ mod citations;
 mod design;
 mod elements;
 mod fatigue;
+mod flash;
 mod fluctuation;
 mod governor;
 mod hoist;

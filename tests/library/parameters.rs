@@ -5,7 +5,8 @@ use driveline::parameters::{Error, Loaded, Parameters, RecordError, Store};
 use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash};
 use serde::{Deserialize, Serialize};
 
-const PAGE: usize = 2048;
+use crate::flash::PAGE;
+
 /// Bytes that are programmed at once, as in an STM32G4.
 const WORD: usize = 8;
 const PAGES: usize = 2;
@@ -129,25 +130,35 @@ impl NorFlash for Flash {
     }
 }
 
-/// What a drive keeps, a run of the balancing among it.
+/// A form of parameters under an identity and a version; as a record it is what it holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-struct Kept {
+struct Form<T, const IDENTITY: u32, const VERSION: u16>(T);
+
+impl<T: Serialize + serde::de::DeserializeOwned, const IDENTITY: u32, const VERSION: u16> Parameters
+    for Form<T, IDENTITY, VERSION>
+{
+    const IDENTITY: u32 = IDENTITY;
+    const VERSION: u16 = VERSION;
+}
+
+const OWN: u32 = 0x4857_0001;
+
+/// What a drive keeps, a run of the balancing among it.
+type Kept = Form<Values, OWN, 3>;
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Values {
     inertia: f32,
     stiffness: f32,
     influence: Vec<f32>,
 }
 
-impl Parameters for Kept {
-    const IDENTITY: u32 = 0x4857_0001;
-    const VERSION: u16 = 3;
-}
-
 fn kept(number: u32) -> Kept {
     let influence = (0..200).map(|at| (number * 1000 + at) as f32).collect();
-    Kept { inertia: number as f32, stiffness: 0.5, influence }
+    Form(Values { inertia: number as f32, stiffness: 0.5, influence })
 }
 
-fn save(flash: &mut Flash, parameters: &Kept) -> Result<(), Error<Cut>> {
+fn save<P: Parameters>(flash: &mut Flash, parameters: &P) -> Result<(), Error<Cut>> {
     let mut store = Store::new(flash.clone(), RANGE).unwrap();
     let saved = store.save(parameters, &mut [0; 4096]);
     *flash = store.release();
@@ -173,15 +184,6 @@ fn an_empty_flash_has_nothing_and_what_is_saved_is_there() {
     }
 }
 
-/// Anything, as [`Kept`] in a sound record; an array has no count before it.
-#[derive(Debug, PartialEq, Serialize, Deserialize)]
-struct Anything([u8; 13]);
-
-impl Parameters for Anything {
-    const IDENTITY: u32 = Kept::IDENTITY;
-    const VERSION: u16 = Kept::VERSION;
-}
-
 /// The check says that a record is whole, not that its parameters are some: a count of four thousand million values,
 /// say.
 #[test]
@@ -189,10 +191,10 @@ fn a_sound_record_of_nonsense_is_refused_and_the_last_good_one_kept() {
     for count in [[0xff, 0xff, 0xff, 0xff, 0x0f], [0xff; 5], [0x7f; 5], [2, 0, 0, 0, 0]] {
         let mut flash = Flash::new();
         save(&mut flash, &kept(1)).unwrap();
-        // two numbers of four bytes, then the count of the values
+        // two numbers of four bytes, then the count of the values; an array has no count before it
         let mut nonsense = [0; 13];
         nonsense[8..].copy_from_slice(&count);
-        save_other(&mut flash, &Anything(nonsense));
+        save(&mut flash, &Form::<_, OWN, 3>(nonsense)).unwrap();
         let Loaded { parameters, refused } = load::<Kept>(&mut flash);
         assert_eq!((parameters, refused), (Some(kept(1)), Some(RecordError::Content)), "{count:?}");
     }
@@ -278,48 +280,22 @@ fn any_damaged_byte_is_no_other_parameters() {
 }
 
 /// The same form from another firmware, and another form from this one.
-#[derive(Debug, PartialEq, Serialize, Deserialize)]
-struct Foreign(Kept);
-
-impl Parameters for Foreign {
-    const IDENTITY: u32 = 0x4857_0002;
-    const VERSION: u16 = 3;
-}
-
-#[derive(Debug, PartialEq, Serialize, Deserialize)]
-struct Older(f32);
-
-impl Parameters for Older {
-    const IDENTITY: u32 = Kept::IDENTITY;
-    const VERSION: u16 = 2;
-}
-
-#[derive(Debug, PartialEq, Serialize, Deserialize)]
-struct Longer(Kept, u8);
-
-impl Parameters for Longer {
-    const IDENTITY: u32 = Kept::IDENTITY;
-    const VERSION: u16 = Kept::VERSION;
-}
-
-fn save_other(flash: &mut Flash, other: &impl Parameters) {
-    let mut store = Store::new(flash.clone(), RANGE).unwrap();
-    store.save(other, &mut [0; 4096]).unwrap();
-    *flash = store.release();
-}
+type Foreign = Form<Values, 0x4857_0002, 3>;
+type Older = Form<f32, OWN, 2>;
+type Longer = Form<(Values, u8), OWN, 3>;
 
 #[test]
 fn records_of_others_are_refused_with_the_reason() {
     let mut flash = Flash::new();
-    save_other(&mut flash, &Foreign(kept(7)));
+    save::<Foreign>(&mut flash, &Form(kept(7).0)).unwrap();
     let refused = load::<Kept>(&mut flash);
     assert_eq!(refused, Loaded { parameters: None, refused: Some(RecordError::Foreign(0x4857_0002)) });
     assert_eq!(refused.refused.unwrap().to_string(), "the record is another firmware's, 0x48570002");
     let mut flash = Flash::new();
-    save_other(&mut flash, &Older(1.0));
+    save::<Older>(&mut flash, &Form(1.0)).unwrap();
     assert_eq!(load::<Kept>(&mut flash).refused, Some(RecordError::Version(2)));
     let mut flash = Flash::new();
-    save_other(&mut flash, &Longer(kept(7), 1));
+    save::<Longer>(&mut flash, &Form((kept(7).0, 1))).unwrap();
     assert_eq!(load::<Kept>(&mut flash).refused, Some(RecordError::Content));
 }
 
@@ -329,25 +305,16 @@ fn the_last_good_one_is_kept_beside_one_that_is_refused() {
     save(&mut flash, &kept(1)).unwrap();
     save(&mut flash, &kept(2)).unwrap();
     // an older firmware finds nothing of its own, and takes one of the two places
-    save_other(&mut flash, &Older(1.0));
+    save::<Older>(&mut flash, &Form(1.0)).unwrap();
     let Loaded { parameters, refused } = load::<Kept>(&mut flash);
     assert_eq!((parameters, refused), (Some(kept(2)), Some(RecordError::Version(2))));
 }
 
 /// A form before that of [`Kept`], which had more to keep.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-struct Before {
-    inertia: f32,
-    table: Vec<f32>,
-}
-
-impl Parameters for Before {
-    const IDENTITY: u32 = Kept::IDENTITY;
-    const VERSION: u16 = 2;
-}
+type Before = Form<(f32, Vec<f32>), OWN, 2>;
 
 fn before(number: u32) -> Before {
-    Before { inertia: number as f32, table: (0..300).map(|at| (number * 1000 + at) as f32).collect() }
+    Form((number as f32, (0..300).map(|at| (number * 1000 + at) as f32).collect()))
 }
 
 /// Whose records stand in the two halves when a new firmware comes, in the order of their saves.
@@ -396,10 +363,11 @@ fn cuts_of_every_history(every: usize) -> usize {
         let mut flash = Flash::new();
         for &record in history {
             match record {
-                B(number) => save_other(&mut flash, &before(number)),
-                K(number) => save(&mut flash, &kept(number)).unwrap(),
-                F(number) => save_other(&mut flash, &Foreign(kept(number))),
+                B(number) => save(&mut flash, &before(number)),
+                K(number) => save(&mut flash, &kept(number)),
+                F(number) => save::<Foreign>(&mut flash, &Form(kept(number).0)),
             }
+            .unwrap();
         }
         let old = loaded(&mut flash);
         assert!(old.0.is_some() || old.1.is_some(), "{history:?}");
@@ -430,29 +398,21 @@ fn cuts_of_every_history(every: usize) -> usize {
 /// A record that the buffer has no room for cannot be checked; it is not taken for nothing.
 #[test]
 fn a_longer_record_of_an_older_version_is_not_erased_first() {
-    let mut flash = Flash::new();
-    save_other(&mut flash, &before(1));
+    let (mut flash, short): (_, Form<f32, OWN, 4>) = (Flash::new(), Form(7.0));
+    save(&mut flash, &before(1)).unwrap();
     let mut store = Store::new(flash.clone(), RANGE).unwrap();
     // the older one has 1200 bytes and more
-    store.save(&Short(7.0), &mut [0; 300]).unwrap();
+    store.save(&short, &mut [0; 300]).unwrap();
     flash = store.release();
     assert_eq!(load::<Before>(&mut flash).parameters, Some(before(1)));
-    assert_eq!(load::<Short>(&mut flash).parameters, Some(Short(7.0)));
-}
-
-#[derive(Debug, PartialEq, Serialize, Deserialize)]
-struct Short(f32);
-
-impl Parameters for Short {
-    const IDENTITY: u32 = Kept::IDENTITY;
-    const VERSION: u16 = 4;
+    assert_eq!(load(&mut flash).parameters, Some(short));
 }
 
 #[test]
 fn what_does_not_fit_is_said_and_nothing_is_lost() {
     let mut flash = Flash::new();
     save(&mut flash, &kept(1)).unwrap();
-    let large = Kept { influence: vec![1.0; 3000], ..kept(2) };
+    let large: Kept = Form(Values { influence: vec![1.0; 3000], ..kept(2).0 });
     let mut store = Store::new(flash.clone(), RANGE).unwrap();
     assert_eq!(store.save(&large, &mut [0; 65_536]), Err(Error::TooLarge));
     assert_eq!(store.save(&kept(2), &mut [0; 300]), Err(Error::TooLarge));
@@ -523,12 +483,7 @@ fn a_balancing_goes_on_after_a_power_cut_at_any_step() {
         }
         field.weights()
     };
-    let keep = |flash: &mut Flash, field: &Field| {
-        let mut store = Store::new(flash.clone(), RANGE).unwrap();
-        let saved = store.save(&FieldRecord::of(field, &[0x5eed]).unwrap(), &mut [0; 2048]);
-        *flash = store.release();
-        saved
-    };
+    let keep = |flash: &mut Flash, field: &Field| save(flash, &FieldRecord::of(field, &[0x5eed]).unwrap());
     let (mut flash, mut rotor, mut field) = (Flash::new(), Rotor::new(), Field::new(plan).unwrap());
     keep(&mut flash, &field).unwrap();
     flash.left = usize::MAX;
@@ -570,44 +525,11 @@ fn a_balancing_goes_on_after_a_power_cut_at_any_step() {
     assert!(matches!(resumed, Err(balancing::Error::Record { .. })));
 }
 
-/// A flash that is read by words of 32 bytes and written by single ones.
-#[derive(Clone)]
-struct Coarse(Vec<u8>);
-
-impl ErrorType for Coarse {
-    type Error = Cut;
-}
-
-impl ReadNorFlash for Coarse {
-    const READ_SIZE: usize = 32;
-    fn read(&mut self, offset: u32, bytes: &mut [u8]) -> Result<(), Cut> {
-        assert!(bytes.len().is_multiple_of(Self::READ_SIZE));
-        bytes.copy_from_slice(&self.0[offset as usize..][..bytes.len()]);
-        Ok(())
-    }
-    fn capacity(&self) -> usize {
-        self.0.len()
-    }
-}
-
-impl NorFlash for Coarse {
-    const WRITE_SIZE: usize = 1;
-    const ERASE_SIZE: usize = PAGE;
-    fn erase(&mut self, from: u32, to: u32) -> Result<(), Cut> {
-        self.0[from as usize..to as usize].fill(0xff);
-        Ok(())
-    }
-    fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), Cut> {
-        self.0[offset as usize..][..bytes.len()].copy_from_slice(bytes);
-        Ok(())
-    }
-}
-
 /// A buffer that holds the record but not the words that it is read in: it is too small, and no page is erased for it.
 #[test]
 fn a_buffer_that_ends_within_a_word_is_too_small() {
-    let small = Kept { inertia: 1.0, stiffness: 0.5, influence: Vec::new() };
-    let mut store = Store::new(Coarse(vec![0xff; PAGES * PAGE]), RANGE).unwrap();
+    let small: Kept = Form(Values { inertia: 1.0, stiffness: 0.5, influence: Vec::new() });
+    let mut store = Store::new(crate::flash::Flash::<32, 1>::erased(), RANGE).unwrap();
     // 18 bytes of head, 9 of parameters, 4 of check.
     for (length, kept) in [(30, false), (31, false), (32, true), (33, true), (63, true)] {
         let saved = store.save(&small, &mut vec![0; length]);

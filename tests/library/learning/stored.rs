@@ -3,8 +3,8 @@
 //! A swap in the writer and one in the reader would hide each other, so the record is also written here from the layout
 //! of postcard. The corrected angle is compared with one that is corrected here.
 
+use crate::flash::Flash;
 use crate::hoist::Hoist;
-use std::convert::Infallible;
 
 use driveline::configure::Machine;
 use driveline::drive::{ConfigOf, Drive};
@@ -17,45 +17,13 @@ use driveline::learning::{
 use driveline::observer::{GearedObserver, SemiImplicitObserver};
 use driveline::parameters::{Parameters, Store};
 use driveline::sample::Sample;
-use embedded_storage::nor_flash::{ErrorType, NorFlash, ReadNorFlash};
 use serde::{Deserialize, Serialize};
 
 type M = Hoist<10_000>;
 
-/// A flash of two pages that outlives the store.
-struct Flash([u8; 4096]);
-
-impl ErrorType for Flash {
-    type Error = Infallible;
-}
-
-impl ReadNorFlash for Flash {
-    const READ_SIZE: usize = 1;
-    fn read(&mut self, at: u32, bytes: &mut [u8]) -> Result<(), Infallible> {
-        bytes.copy_from_slice(&self.0[at as usize..][..bytes.len()]);
-        Ok(())
-    }
-    fn capacity(&self) -> usize {
-        self.0.len()
-    }
-}
-
-impl NorFlash for Flash {
-    const WRITE_SIZE: usize = 4;
-    const ERASE_SIZE: usize = 2048;
-    fn erase(&mut self, from: u32, to: u32) -> Result<(), Infallible> {
-        self.0[from as usize..to as usize].fill(0xff);
-        Ok(())
-    }
-    fn write(&mut self, at: u32, bytes: &[u8]) -> Result<(), Infallible> {
-        self.0[at as usize..][..bytes.len()].copy_from_slice(bytes);
-        Ok(())
-    }
-}
-
 /// Saves, forgets the store, and loads from the flash; the content of the record beside.
 fn restarted<P: Parameters>(parameters: &P, length: usize) -> (P, Vec<u8>) {
-    let mut flash = Flash([0xff; 4096]);
+    let mut flash = Flash::<1, 4>::erased();
     Store::new(&mut flash, 0..4096).unwrap().save(parameters, &mut [0; 512]).unwrap();
     let begin = flash.0.windows(4).position(|four| four == b"DLP1").unwrap() + 18;
     let content = flash.0[begin..begin + length].to_vec();
