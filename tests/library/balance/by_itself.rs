@@ -3,7 +3,7 @@
 //! The rotor is a rigid body in two bearings, by the equations of motion of its two coordinates, integrated exactly
 //! between the ticks. It shares nothing with the library. Its true level is the closed form of the steady whirl.
 
-use core::f64::consts::{PI, TAU};
+use core::f64::consts::TAU;
 
 use driveline::balancing::{
     BalanceTolerance, BalancingDesign, BalancingDesignError, BalancingFault, BalancingHead, BalancingMemory,
@@ -12,23 +12,17 @@ use driveline::balancing::{
 use driveline::configure::HasVibration;
 use driveline::parameters::Store;
 use driveline::prelude::*;
-use embedded_storage::nor_flash::{ErrorType, NorFlash, ReadNorFlash};
 use nalgebra::{Matrix2, Matrix4, Vector2, Vector4};
 
 use super::noise::Noise;
-
-/// 3000 r/min.
-const SERVICE: f64 = 100.0 * PI;
-const MASS: f64 = 25.0;
-const CAPACITY: f64 = 1.5e-3;
-/// Permissible residual unbalance in G2.5 (kg m) [ISO 21940-11].
-const G2_5: f64 = 2.5e-3 * MASS / SERVICE;
+use super::{CAPACITY, G2_5, MASS, SPEED, ZERO, turned};
+use crate::flash::Flash;
 
 struct Grinder;
 
 impl Machine for Grinder {
     const CHAIN: Chain = Chain::motor(Inertia(0.02)).shaft(Stiffness(1.5e3), Damping(0.2)).rotor(Inertia(0.18));
-    const RATING: Rating = Rating { torque: Torque(20.0), speed: Speed(SERVICE), torque_limit: Torque(80.0) };
+    const RATING: Rating = Rating { torque: Torque(20.0), speed: Speed(SPEED), torque_limit: Torque(80.0) };
     const ENCODER: Encoder = Encoder::lines(2048);
     const RATE_HZ: u32 = 4_000;
 }
@@ -43,14 +37,13 @@ type Memory = Option<BalancingRecord<2, 1>>;
 static CONFIG: ConfigOf<GrinderDrive> = GrinderDrive::configure::<Grinder>();
 
 const DESIGN: BalancingDesign = BalancingDesign {
-    rotor: BalanceTolerance { grade: 2.5, mass: MASS as f32, speed: SERVICE as f32 },
+    rotor: BalanceTolerance { grade: 2.5, mass: MASS as f32, speed: SPEED as f32 },
     capacity: [CAPACITY as f32],
     travel: 5.0,
     settle: 0.3,
     quiet: 0.0,
 };
 const PERIOD: f64 = 1.0 / Grinder::RATE_HZ as f64;
-const ZERO: Complex<f64> = Complex::new(0.0, 0.0);
 
 /// A head that moves along a straight line.
 struct Head {
@@ -212,13 +205,12 @@ fn start(kind: Kind, seed: u64) -> Outcome {
         noise.even();
     }
     let mut rotor = Rotor::random(&mut noise, kind.apart);
-    let turned = |size: f64, noise: &mut Noise| Complex::from_polar(size, TAU * noise.even());
     let unbalance = |noise: &mut Noise| {
         let size = CAPACITY * (kind.least + (0.95 - kind.least) * noise.even());
         turned(size, noise)
     };
     let mut wheel = unbalance(&mut noise);
-    let mean = SERVICE * (0.6 + 0.4 * noise.even());
+    let mean = SPEED * (0.6 + 0.4 * noise.even());
     let (swing, slow) = (kind.swing * noise.even(), TAU / (2.0 + 18.0 * noise.even()));
     let mut head = Head {
         at: ZERO,
@@ -381,7 +373,7 @@ fn a_record_is_remembered_or_refused() {
         influence: [[z(1.0, 2.0)], [z(-3.0, 4.0)]],
         deviation: [0.25],
     };
-    let mut store = Store::new(Flash([0xff; 4096]), 0..4096).unwrap();
+    let mut store = Store::new(Flash::<1, 4>::erased(), 0..4096).unwrap();
     BalancingMemory::save(&mut store, &record).unwrap();
     assert_eq!(BalancingMemory::<2, 1>::load(&mut store), Ok(Some(record)));
     assert_eq!(BalancingMemory::<1, 1>::load(&mut store), Ok(None));
@@ -423,38 +415,4 @@ fn a_position_that_cannot_be_is_waited_for() {
     }
     assert_eq!(*task.weights(), [Complex::new(5e-4, 0.0)]);
     assert_eq!(memory.map(|record| record.weights), Some([Complex::new(5e-4, 0.0)]));
-}
-
-struct Flash([u8; 4096]);
-
-impl ErrorType for Flash {
-    type Error = core::convert::Infallible;
-}
-
-impl ReadNorFlash for Flash {
-    const READ_SIZE: usize = 1;
-
-    fn read(&mut self, at: u32, bytes: &mut [u8]) -> Result<(), Self::Error> {
-        bytes.copy_from_slice(&self.0[at as usize..][..bytes.len()]);
-        Ok(())
-    }
-
-    fn capacity(&self) -> usize {
-        4096
-    }
-}
-
-impl NorFlash for Flash {
-    const WRITE_SIZE: usize = 4;
-    const ERASE_SIZE: usize = 2048;
-
-    fn erase(&mut self, from: u32, to: u32) -> Result<(), Self::Error> {
-        self.0[from as usize..to as usize].fill(0xff);
-        Ok(())
-    }
-
-    fn write(&mut self, at: u32, bytes: &[u8]) -> Result<(), Self::Error> {
-        self.0[at as usize..][..bytes.len()].copy_from_slice(bytes);
-        Ok(())
-    }
 }

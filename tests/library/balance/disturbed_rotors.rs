@@ -4,32 +4,14 @@
 //! The rotor is its own: translation and tilt on two bearings, an impedance matrix of two by two. The library knows
 //! influence coefficients alone.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
-use driveline::balancing::{Action, Complex, InRun, InRunConfig};
+use driveline::balancing::{Action, Complex, InRun};
 
 use super::noise::Noise;
+use super::{CAPACITY, G2_5, SPEED, SPINDLE, ZERO, turned};
 
 type Z = Complex<f64>;
-
-/// The largest correction of the head (kg m), and the running speed (rad/s), as the grinding spindle's.
-const CAPACITY: f64 = 1.5e-3;
-const SPEED: f64 = 100.0 * PI;
-const CONFIG: InRunConfig<f64, 1> = InRunConfig {
-    probe: CAPACITY / 50.0,
-    limits: [CAPACITY],
-    step: 2.0 * CAPACITY,
-    bound: 1.3,
-    target: 0.01,
-    forgetting: 0.7,
-    noise: 0.005,
-};
-/// Residual of 25 kg at that speed in G2.5 (kg m).
-const G2_5: f64 = 2.5e-3 * 25.0 / SPEED;
-
-fn turned(size: f64, noise: &mut Noise) -> Z {
-    Complex::from_polar(size, TAU * noise.even())
-}
 
 fn largest(vibration: [Z; 2]) -> f64 {
     vibration[0].norm().max(vibration[1].norm())
@@ -120,13 +102,13 @@ struct Outcome {
 fn balanced(seed: u64, disturbance: Disturbance, with_speed: bool) -> Option<Outcome> {
     let mut noise = Noise::new(seed);
     let rotor = Rotor::random(&mut noise);
-    let (rest, mut wheel) = (Complex::new(0.0, 0.0), turned(CAPACITY * (0.1 + 0.8 * noise.even()), &mut noise));
+    let (rest, mut wheel) = (ZERO, turned(CAPACITY * (0.1 + 0.8 * noise.even()), &mut noise));
     let first = largest(rotor.vibration([rest, wheel], SPEED, [1.0; 2]));
-    let probe = rotor.vibration([CONFIG.probe.into(), rest], SPEED, [1.0; 2]);
-    if largest(probe) > (CONFIG.bound - 1.0) * first {
+    let probe = rotor.vibration([SPINDLE.probe.into(), rest], SPEED, [1.0; 2]);
+    if largest(probe) > (SPINDLE.bound - 1.0) * first {
         return None;
     }
-    let mut run = InRun::<f64, 2, 1>::new(CONFIG, 2, [rest]).unwrap();
+    let mut run = InRun::<f64, 2, 1>::new(SPINDLE, 2, [rest]).unwrap();
     let (period, phase) = (6.0 + 60.0 * noise.even(), TAU * noise.even());
     let (beat, hum) = (0.2 * TAU * (noise.even() - 0.5), [(); 2].map(|()| turned(disturbance.hum * first, &mut noise)));
     let jump = 1 + (noise.even() * 20.0) as u32;

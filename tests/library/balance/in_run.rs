@@ -3,15 +3,12 @@
 use driveline::balancing::{AbortReason, Action, Complex, InRun, InRunConfig, Influence};
 
 use super::noise::Noise;
+use super::turned;
 
 /// Readings are off by 0.5 %, and the influence drifts by 1 % in each part from move to move, which looks the same: 1.5
 /// % of noise.
 const CONFIG: InRunConfig<f64, 1> =
     InRunConfig { probe: 0.01, limits: [1.0], step: 2.0, bound: 1.3, target: 0.04, forgetting: 0.8, noise: 0.015 };
-
-fn turned(size: f64, noise: &mut Noise) -> Complex<f64> {
-    Complex::from_polar(size, std::f64::consts::TAU * noise.even())
-}
 
 /// What came of a run: moves until it rested, the highest level on the way, the level that was really left.
 struct Outcome {

@@ -2,26 +2,10 @@
 
 use std::ops::RangeInclusive;
 
-use driveline::balancing::{Action, Complex, InRun, InRunConfig};
+use driveline::balancing::{Action, Complex, InRun};
 
 use super::noise::Noise;
-
-/// The largest correction of the head (kg m), as the grinding spindle's.
-const CAPACITY: f64 = 1.5e-3;
-/// The grinding spindle's settings.
-const CONFIG: InRunConfig<f64, 1> = InRunConfig {
-    probe: CAPACITY / 50.0,
-    limits: [CAPACITY],
-    step: 2.0 * CAPACITY,
-    bound: 1.3,
-    target: 0.01,
-    forgetting: 0.7,
-    noise: 0.005,
-};
-/// 3000 r/min.
-const SPEED: f64 = 100.0 * std::f64::consts::PI;
-/// Residual of 25 kg at that speed in G2.5 (kg m): 2.5e-3 m/s of the centre of mass.
-const G2_5: f64 = 2.5e-3 * 25.0 / SPEED;
+use super::{CAPACITY, G2_5, SPEED, SPINDLE, ZERO, turned};
 
 /// What disturbs a start, each as a share.
 #[derive(Clone, Copy, Default)]
@@ -87,10 +71,6 @@ impl Rotor {
     }
 }
 
-fn turned(size: f64, noise: &mut Noise) -> Complex<f64> {
-    Complex::from_polar(size, std::f64::consts::TAU * noise.even())
-}
-
 /// A rotor with its unbalance, its head, and its bearings as they are now.
 struct Machine {
     rotor: Rotor,
@@ -118,7 +98,7 @@ impl Machine {
     fn random(noise: &mut Noise) -> Self {
         let rotor = Rotor::random(noise);
         let wheel = turned(CAPACITY * (0.1 + 0.8 * noise.even()), noise);
-        let head = Complex::new(0.0, 0.0);
+        let head = ZERO;
         let first = rotor.level(head, wheel, [1.0; 2]);
         Machine { rotor, wheel, head, softer: [1.0; 2], walk: [0.0; 2], first, resumed: false }
     }
@@ -272,7 +252,7 @@ fn starts_end_no_worse(seeds: RangeInclusive<u64>) {
             let mut judged = Judged::default();
             for _ in 0..200 {
                 let mut machine = Machine::random(&mut noise);
-                let mut run = InRun::<f64, 2, 1>::new(CONFIG, 2, [machine.head]).unwrap();
+                let mut run = InRun::<f64, 2, 1>::new(SPINDLE, 2, [machine.head]).unwrap();
                 judged.add(&machine.run(&mut run, disturbed, &mut noise));
             }
             judged.no_harm(&format!("{seed}, {name}"));
@@ -303,7 +283,7 @@ fn resumed_runs_end_no_worse() {
             let (mut same, mut halted) = (Judged::default(), Judged::default());
             for _ in 0..200 {
                 let mut machine = Machine::random(&mut noise);
-                let mut run = InRun::<f64, 2, 1>::new(CONFIG, 2, [machine.head]).unwrap();
+                let mut run = InRun::<f64, 2, 1>::new(SPINDLE, 2, [machine.head]).unwrap();
                 if machine.run(&mut run, disturbed, &mut noise).aborted {
                     machine.resume(&mut run);
                     same.add(&machine.run(&mut run, disturbed, &mut later));
@@ -335,8 +315,8 @@ fn reading(head: Complex<f64>) -> [Complex<f64>; 2] {
 /// After an abort the influence is still there: the first move is towards the correction, and needs no probe.
 #[test]
 fn an_abort_is_left_with_what_was_learnt() {
-    let mut run = InRun::<f64, 2, 1>::new(CONFIG, 2, [Complex::new(0.0, 0.0)]).unwrap();
-    let mut head = Complex::new(0.0, 0.0);
+    let mut run = InRun::<f64, 2, 1>::new(SPINDLE, 2, [ZERO]).unwrap();
+    let mut head = ZERO;
     for _ in 0..8 {
         if let Action::Set([to]) = run.advise(&reading(head), 0.0) {
             head = to;
@@ -363,8 +343,8 @@ fn an_abort_is_left_with_what_was_learnt() {
 /// Readings that wander by a quarter end a run. Once they hold still the run goes on when it is told to, and balances.
 #[test]
 fn a_run_that_was_given_up_for_wandering_can_be_resumed() {
-    let mut run = InRun::<f64, 2, 1>::new(CONFIG, 2, [Complex::new(0.0, 0.0)]).unwrap();
-    let mut head = Complex::new(0.0, 0.0);
+    let mut run = InRun::<f64, 2, 1>::new(SPINDLE, 2, [ZERO]).unwrap();
+    let mut head = ZERO;
     let wanders = (0..30).any(|step| {
         let bearings = if step % 2 == 0 { 1.0 } else { 1.25 };
         match run.advise(&reading(head).map(|z| z * bearings), 0.0) {
@@ -393,7 +373,7 @@ fn a_run_that_was_given_up_for_wandering_can_be_resumed() {
 /// A reading of another speed is asked for again, and teaches nothing.
 #[test]
 fn a_reading_of_another_speed_is_not_used() {
-    let mut run = InRun::<f64, 1, 1>::new(CONFIG, 1, [Complex::new(0.0, 0.0)]).unwrap();
+    let mut run = InRun::<f64, 1, 1>::new(SPINDLE, 1, [ZERO]).unwrap();
     let v = [Complex::new(1.0, 0.0)];
     run.advise_at(&v, 0.0, 314.0);
     let Action::Set(probe) = run.advise_at(&v, 0.0, 314.0) else { panic!("no probe") };
@@ -401,7 +381,7 @@ fn a_reading_of_another_speed_is_not_used() {
     assert_eq!(run.advise_at(&[v[0] * 0.6], 0.0, 331.0), Action::Set(probe));
     assert_eq!(run.advise_at(&[v[0] * 0.6], 0.0, f64::NAN), Action::Set(probe));
     // above the bound the head goes back
-    assert_eq!(run.advise_at(&[v[0] * 2.0], 0.0, 300.0), Action::Set([Complex::new(0.0, 0.0)]));
+    assert_eq!(run.advise_at(&[v[0] * 2.0], 0.0, 300.0), Action::Set([ZERO]));
     run.installed(&probe);
     assert_eq!(run.influence(0, 0), before);
     run.advise_at(&[v[0] * 1.1], 0.0, 314.1);

@@ -7,6 +7,10 @@ use super::noise::Noise;
 type Field = Procedure<f64, 4, 2>;
 type Model = Influence<f64, 4, 2>;
 
+fn z(re: f64, im: f64) -> Complex<f64> {
+    Complex::new(re, im)
+}
+
 /// A fan: two planes, two sensors.
 struct Fan {
     influence: Model,
@@ -130,13 +134,12 @@ fn steps_are_taken_back_and_given_again() {
 #[test]
 fn a_plane_is_tried_again_or_further() {
     type Roomy = Procedure<f64, 4, 2, 5>;
-    let w = |re: f64, im: f64| Complex::new(re, im);
     for stays in [false, true] {
         let mut fan = Fan::new();
         let mut field = Roomy::new(plan(stays)).unwrap();
         field.baseline(&fan.run()).unwrap();
         for (plane, weight) in
-            [(0, w(1.0, 0.5)), (1, w(0.5, -1.0)), (0, w(-0.3, 1.0)), (1, w(2.0, 0.0)), (0, w(0.7, 0.1))]
+            [(0, z(1.0, 0.5)), (1, z(0.5, -1.0)), (0, z(-0.3, 1.0)), (1, z(2.0, 0.0)), (0, z(0.7, 0.1))]
         {
             fan.on[plane] += weight;
             field.extra_trial(plane, weight, &fan.run()).unwrap();
@@ -144,7 +147,7 @@ fn a_plane_is_tried_again_or_further() {
                 fan.on[plane] -= weight;
             }
         }
-        assert_eq!(field.extra_trial(0, w(1.0, 0.0), &fan.run()), Err(Error::Size));
+        assert_eq!(field.extra_trial(0, z(1.0, 0.0), &fan.run()), Err(Error::Size));
         for (row, plane) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
             // rounding of five runs of size 10
             let (got, truth) = (field.influence().unwrap().get(row, plane), fan.influence.get(row, plane));
@@ -152,7 +155,7 @@ fn a_plane_is_tried_again_or_further() {
         }
         // which of the three is meant to be replaced cannot be known
         let kept = field.clone();
-        assert_eq!(field.trial(0, w(1.0, 0.0), &fan.run()), Err(Error::TrialRepeated { plane: 0 }));
+        assert_eq!(field.trial(0, z(1.0, 0.0), &fan.run()), Err(Error::TrialRepeated { plane: 0 }));
         assert_eq!(field, kept);
         let mut words = [0; 300];
         let length = field.record(&mut words).unwrap();
@@ -165,15 +168,15 @@ fn a_plane_is_tried_again_or_further() {
     let mut field = Field::new(plan(true)).unwrap();
     field.baseline(&fan.run()).unwrap();
     for plane in 0..2 {
-        fan.on[plane] += w(9.0, 9.0);
-        field.trial(plane, w(1.0, 0.0), &fan.run()).unwrap();
+        fan.on[plane] += z(9.0, 9.0);
+        field.trial(plane, z(1.0, 0.0), &fan.run()).unwrap();
         if plane == 0 {
             // it was not one but nine and nine
-            field.trial(plane, w(9.0, 9.0), &fan.run()).unwrap();
+            field.trial(plane, z(9.0, 9.0), &fan.run()).unwrap();
         }
     }
-    assert_eq!(field.trial(0, w(9.0, 9.0), &fan.run()), Err(Error::TrialRepeated { plane: 0 }));
-    field.trial(1, w(9.0, 9.0), &fan.run()).unwrap();
+    assert_eq!(field.trial(0, z(9.0, 9.0), &fan.run()), Err(Error::TrialRepeated { plane: 0 }));
+    field.trial(1, z(9.0, 9.0), &fan.run()).unwrap();
     assert!((field.influence().unwrap().get(0, 0).unwrap() - fan.influence.get(0, 0).unwrap()).norm() < 1e-13);
     assert!((field.influence().unwrap().get(0, 1).unwrap() - fan.influence.get(0, 1).unwrap()).norm() < 1e-13);
     assert_eq!(
@@ -185,14 +188,17 @@ fn a_plane_is_tried_again_or_further() {
 /// A reading that is weighted with zero keeps no procedure from its end, and is in no residual.
 #[test]
 fn a_reading_that_is_left_out_is_in_no_residual() {
-    let z = |re: f64, im: f64| Complex::new(re, im);
-    let mut aim = Aim::default();
-    aim.weighting[2] = 0.0;
-    let mut field = Field::new(Plan { aim, ..Plan::usual(3, 2, 0.1) }).unwrap();
     let run = |readings: [Complex<f64>; 3]| Run::new(&readings, &[SPEED; 3]).unwrap();
-    field.baseline(&run([z(5.0, 0.0), z(0.0, 3.0), z(50.0, 0.0)])).unwrap();
-    field.trial(0, z(1.0, 0.0), &run([z(6.0, 0.0), z(0.0, 3.0), z(50.0, 0.0)])).unwrap();
-    field.trial(1, z(1.0, 0.0), &run([z(5.0, 0.0), z(1.0, 3.0), z(50.0, 0.0)])).unwrap();
+    let tried = |weighting: f64| {
+        let mut aim = Aim::default();
+        aim.weighting[2] = weighting;
+        let mut field = Field::new(Plan { aim, ..Plan::usual(3, 2, 0.1) }).unwrap();
+        field.baseline(&run([z(5.0, 0.0), z(0.0, 3.0), z(50.0, 0.0)])).unwrap();
+        field.trial(0, z(1.0, 0.0), &run([z(6.0, 0.0), z(0.0, 3.0), z(50.0, 0.0)])).unwrap();
+        field.trial(1, z(1.0, 0.0), &run([z(5.0, 0.0), z(1.0, 3.0), z(50.0, 0.0)])).unwrap();
+        field
+    };
+    let mut field = tried(0.0);
     let correction = field.correction().unwrap();
     // influences of one: two readings vanish, and the third, which no plane changes, stays
     assert!(
@@ -202,11 +208,7 @@ fn a_reading_that_is_left_out_is_in_no_residual() {
     field.verified(&run([z(0.05, 0.0), z(0.0, 0.05), z(50.0, 0.0)])).unwrap();
     assert_eq!(field.next(), ProcedureStep::Done);
     // and counts as soon as it is weighted
-    let mut field = Field::new(Plan::usual(3, 2, 0.1)).unwrap();
-    field.baseline(&run([z(5.0, 0.0), z(0.0, 3.0), z(50.0, 0.0)])).unwrap();
-    field.trial(0, z(1.0, 0.0), &run([z(6.0, 0.0), z(0.0, 3.0), z(50.0, 0.0)])).unwrap();
-    field.trial(1, z(1.0, 0.0), &run([z(5.0, 0.0), z(1.0, 3.0), z(50.0, 0.0)])).unwrap();
-    assert!((field.correction().unwrap().rms - 50.0 / 3_f64.sqrt()).abs() < 1e-12);
+    assert!((tried(1.0).correction().unwrap().rms - 50.0 / 3_f64.sqrt()).abs() < 1e-12);
 }
 
 #[test]
@@ -231,10 +233,7 @@ fn wrong_use_is_refused_and_loses_nothing() {
     let run = fan.run();
     let w = Complex::new(1.0, 0.0);
     let readings = &run.readings()[..2];
-    assert_eq!(field.trial(0, w * 0.0, &run), Err(Error::TrialWeightZero { plane: 0 }));
-    assert_eq!(field.trial(5, w, &run), Err(Error::NoPlane { plane: 5 }));
     let faster = Run::new(readings, &[SPEED, SPEED * 1.02]).unwrap();
-    assert_eq!(field.trial(0, w, &faster), Err(Error::SpeedDiffers { row: 1 }));
     assert_eq!(field.baseline(&faster), Err(Error::SpeedDiffers { row: 1 }));
     assert_eq!(field.verified(&faster), Err(Error::SpeedDiffers { row: 1 }));
     let short = Run::new(&readings[..1], &[SPEED]).unwrap();
@@ -251,11 +250,58 @@ fn wrong_use_is_refused_and_loses_nothing() {
     assert_eq!(empty.installed(&[w; 2]), Err(Error::TooEarly));
     empty.baseline(&run).unwrap();
     assert_eq!(empty.correction(), Err(Error::PlaneUnknown { plane: 0 }));
-    assert_eq!(
-        Field::new(Plan { planes: 2, ..Plan::usual(1, 2, 1.0) }),
-        Err(Error::MorePlanesThanReadings { planes: 2, readings: 1 })
-    );
     assert_eq!(Field::new(Plan::usual(2, 2, f64::NAN)), Err(Error::Setting { index: 1 }));
+}
+
+/// A procedure with everything in it but the second trial.
+fn half_way() -> Field {
+    let mut field = Field::new(Plan::usual(2, 2, 0.1)).unwrap();
+    field.baseline(&Run::new(&[z(7.2, 1.0), z(3.0, 2.0)], &[155.0; 2]).unwrap()).unwrap();
+    field.trial(0, z(2.5, 0.0), &Run::new(&[z(4.9, 0.0), z(4.0, 1.0)], &[155.0; 2]).unwrap()).unwrap();
+    field
+}
+
+#[test]
+fn every_wrong_use_has_its_own_sentence_and_loses_nothing() {
+    let right = Run::new(&[z(1.0, 1.0), z(-2.0, 2.0)], &[155.0; 2]).unwrap();
+    type Use = fn(&mut Field, &Run<f64, 4>) -> Result<(), Error>;
+    let uses: [(&str, Use); 8] = [
+        ("the trial weight in plane 2 is zero: put a weight there and run again", |field, run| {
+            field.trial(1, z(0.0, 0.0), run)
+        }),
+        ("reading 2 was taken at another speed than its baseline: run at the same speed", |field, run| {
+            field.trial(1, z(1.0, 0.0), &Run::new(&run.readings()[..2], &[155.0, 158.0])?)
+        }),
+        ("reading 2 is missing", |field, run| field.trial(1, z(1.0, 0.0), &Run::new(&run.readings()[..1], &[155.0])?)),
+        ("reading 1 is not a number", |field, run| {
+            field.trial(1, z(1.0, 0.0), &Run::new(&[z(f64::NAN, 0.0), run.readings()[1]], &[155.0; 2])?)
+        }),
+        ("the influence of plane 2 is not known: make its trial run", |field, _| field.correction().map(|_| ())),
+        ("there is no plane 3", |field, run| field.trial(2, z(1.0, 0.0), run)),
+        ("a step before this one is still missing", |field, run| field.verified(run)),
+        ("the trial weight in plane 2 changed nothing: take a heavier one", |field, _| {
+            field.trial(1, z(1.0, 0.0), &Run::new(&[z(7.2, 1.0), z(3.0, 2.0)], &[155.0; 2])?)
+        }),
+    ];
+    for (sentence, wrong) in uses {
+        let mut field = half_way();
+        assert_eq!(wrong(&mut field, &right).unwrap_err().to_string(), sentence);
+        assert_eq!(field, half_way(), "{sentence}");
+        // and it goes on from where it was
+        field.trial(1, z(1.0, 1.0), &right).unwrap();
+        assert!(field.correction().unwrap().rms < 1e-12);
+    }
+    let planes = Field::new(Plan::usual(1, 2, 0.1)).unwrap_err().to_string();
+    assert_eq!(planes, "2 planes cannot be separated by 1 readings: measure at another place or speed");
+    let mut aim = Aim::default();
+    aim.weighting[0] = 0.0;
+    let mut field = Field::new(Plan { aim, ..Plan::usual(2, 2, 0.1) }).unwrap();
+    field.baseline(&right).unwrap();
+    let runs = [[z(4.9, 0.0), z(4.0, 1.0)], [z(0.0, 0.5), z(1.0, 1.0)]];
+    for (plane, run) in runs.iter().enumerate() {
+        field.trial(plane, z(1.0, 0.0), &Run::new(run, &[155.0; 2]).unwrap()).unwrap();
+    }
+    assert_eq!(field.correction().unwrap_err().to_string(), planes);
 }
 
 /// Any single word changed, and any end cut off, is noticed; nothing is made of it.
