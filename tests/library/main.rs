@@ -21,6 +21,7 @@ mod mechanism;
 mod parameters;
 mod recordings;
 mod references;
+mod runge_kutta;
 mod scheduling;
 mod tick;
 mod wheel;

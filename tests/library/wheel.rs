@@ -2,7 +2,7 @@
 
 mod angle;
 mod cam;
-mod edges;
+pub mod edges;
 mod law;
 mod other_teeth;
 mod recordings;

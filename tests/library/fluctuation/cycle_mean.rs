@@ -76,19 +76,11 @@ fn tick<N: Built>(mean: &mut Mean<N>, config: &CycleMeanConfig<N>, motion: &mut 
     mean.measure(config, motion.encoder(), N::ZERO, &estimate);
 }
 
-/// The mean by time over the speed that the motion is given, from the closed form.
-fn by_time(motion: &Motion) -> f64 {
-    let points = 20_000;
-    let slowness: f64 =
-        (0..points).map(|k| 1.0 / (1.0 + motion.ripple(TAU * TURNS * f64::from(k) / f64::from(points))[0])).sum();
-    f64::from(points) / slowness
-}
-
 /// The largest deviation from the mean by time, over what the motion is given, once there is one.
 fn deviation<N: Built>(speed: f64, ramp: f64, parts: &[Part], ticks: u32) -> (f64, u32) {
     let config = N::config();
     let (mut mean, mut motion) = (Mean::<N>::default(), Motion::new(speed, ramp, TURNS, parts));
-    let share = by_time(&motion);
+    let share = motion.mean_by_time();
     let (mut worst, mut seen) = (0.0_f64, 0);
     for _ in 0..ticks {
         tick(&mut mean, &config, &mut motion);

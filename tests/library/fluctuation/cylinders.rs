@@ -10,6 +10,8 @@ use driveline::fluctuation::{CylinderReading, CylinderVerdict, Engine, ToothErro
 use driveline::settings::{Teeth, ToothClock};
 use driveline::wheel::{Cam, CycleTimes, ToothedWheel, ToothedWheelConfig};
 
+use crate::wheel::edges::Random;
+
 /// Points of a cycle of 720 degrees.
 const POINTS: usize = 360;
 
@@ -23,19 +25,6 @@ struct Simulated {
     combustion: f64,
     /// Of an edge's place (degree).
     edge: f64,
-}
-
-struct Random(u64);
-
-impl Random {
-    fn even(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        (0..12).map(|_| self.even()).sum::<f64>() - 6.0
-    }
 }
 
 /// Combustion torque of a cylinder over its mean, at so many degrees behind its dead centre.

@@ -20,6 +20,7 @@ use driveline::wheel::{CycleTimes, ToothedWheel, ToothedWheelConfig};
 
 use super::rig::InDouble;
 use crate::balance::noise::Noise;
+use crate::runge_kutta;
 
 /// Orders of the speed over its mean by the angle: amplitude and phase.
 struct Wave([(f64, f64); 4]);
@@ -240,13 +241,7 @@ impl Cut {
     fn advance(&mut self, torque: f64, period: f64, steps: u32) {
         let h = period / f64::from(steps);
         for _ in 0..steps {
-            let x = self.state;
-            let plus = |rate: [f64; 4], h: f64| [0, 1, 2, 3].map(|k| x[k] + h * rate[k]);
-            let a = self.rates(x, torque);
-            let b = self.rates(plus(a, 0.5 * h), torque);
-            let c = self.rates(plus(b, 0.5 * h), torque);
-            let d = self.rates(plus(c, h), torque);
-            self.state = plus([0, 1, 2, 3].map(|k| (a[k] + 2.0 * (b[k] + c[k]) + d[k]) / 6.0), h);
+            self.state = runge_kutta::step(self.state, h, |state| self.rates(state, torque));
         }
     }
 }
@@ -353,12 +348,7 @@ fn behind_a_shaft(noise: &mut Noise) -> Option<(Fluctuations, f64)> {
     let (h, mut state) = (turn / steps, [0.0, force(0.0) / stiffness]);
     let (mut least, mut most) = (f64::MAX, f64::MIN);
     for step in 0..2 * steps as u32 {
-        let plus = |rate: [f64; 2], h: f64| [0, 1].map(|k| state[k] + h * rate[k]);
-        let a = rates(state);
-        let b = rates(plus(a, 0.5 * h));
-        let c = rates(plus(b, 0.5 * h));
-        let d = rates(plus(c, h));
-        state = plus([0, 1].map(|k| (a[k] + 2.0 * (b[k] + c[k]) + d[k]) / 6.0), h);
+        state = runge_kutta::step(state, h, rates);
         if f64::from(step) > steps {
             let [speed, rate] = rates(state);
             (least, most) = (least.min(speed - rate), most.max(speed - rate));

@@ -6,10 +6,10 @@ use driveline::fluctuation::{CycleConfig, CycleReading, Extremes, Fluctuation, R
 use driveline::number::Fixed;
 use driveline::sample::Estimate;
 use driveline::settings::{Bases, Cycle};
-use serde_json::Value;
 
 use super::motion::{Motion, Part};
 use super::rig::{BASES, Built, InDouble, MOTOR, PERIOD, RATED, STIFFNESS, run};
+use crate::references::data;
 
 const PARTS: [Part; 2] = [Part { n: 1.0, amplitude: 0.03, phase: 0.7 }, Part { n: 2.0, amplitude: 0.025, phase: -1.1 }];
 
@@ -66,7 +66,7 @@ fn extremes_of_a_closed_form() {
         ] {
             let motion = of(speed);
             let (swing, most, least) = motion.swing();
-            let by_time = harmonic_mean(&motion);
+            let by_time = speed * motion.mean_by_time();
             assert!((reading.mean / by_time - 1.0).abs() < 2e-6, "{reading:?} {by_time}");
             let motor = &reading.motor;
             assert!((motor.delta * by_time.abs() / (swing * speed.abs()) - 1.0).abs() < 3e-4, "{reading:?} {swing}");
@@ -90,16 +90,6 @@ fn extremes_of_a_closed_form() {
     }
 }
 
-/// Mean by time of a motion over its cycle: the cycle's angle over the integral of dphi/omega, by the rule of
-/// rectangles, which is exact for a series.
-fn harmonic_mean(motion: &Motion) -> f64 {
-    let points = 1024;
-    let sum: f64 = (0..points)
-        .map(|k| 1.0 / (1.0 + motion.ripple(f64::from(k) / f64::from(points) * TAU * motion.turns)[0]))
-        .sum();
-    motion.speed * f64::from(points) / sum
-}
-
 /// On a ramp the mean of a cycle is that of its middle, and its change is the ramp's over a cycle.
 #[test]
 fn a_trend_is_told_from_the_ripple() {
@@ -110,17 +100,12 @@ fn a_trend_is_told_from_the_ripple() {
     assert!((change / (15.7 * reading.duration) - 1.0).abs() < 0.01, "{reading:?}");
 }
 
-fn case() -> Value {
-    let path = format!("{}/tests/data/speed_fluctuation.json", env!("CARGO_MANIFEST_DIR"));
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
-
 /// The punch press of the reference cases: its speed falls by a third at a corner and rises at another. Between samples
 /// that are four ticks apart a corner is known to what the speed changes in two: 280 N m on 1.8 kg m2 in 0.2 ms is
 /// 0.031 rad/s of 3.4, one per cent, which the parabola halves.
 #[test]
 fn the_punch_press_of_the_reference_cases() {
-    let document = case();
+    let document = data("speed_fluctuation.json");
     let press = &document["cases"][0];
     let number = |key: &str| press[key].as_f64().unwrap();
     let wave: Vec<[f64; 3]> = serde_json::from_value(press["wave"].clone()).unwrap();
@@ -183,6 +168,6 @@ fn through_the_drive() {
     let reading = seen.last().unwrap().in_double();
     let (swing, ..) = motion.swing();
     // The two ends of a cycle of 16,384 counts, each to half a count.
-    assert!((reading.mean / harmonic_mean(&motion) - 1.0).abs() < 1.0 / 16_384.0, "{reading:?}");
+    assert!((reading.mean / (RATED * motion.mean_by_time()) - 1.0).abs() < 1.0 / 16_384.0, "{reading:?}");
     assert!((reading.motor.delta / swing - 1.0).abs() < 0.05, "{reading:?} {swing}");
 }

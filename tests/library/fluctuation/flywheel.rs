@@ -3,13 +3,14 @@
 use core::f64::consts::TAU;
 
 use driveline::design::{energy_swing, flywheel_inertia};
-use driveline::fluctuation::{Balance, CycleConfig, Drivetrain, FourierSeries, MachineClass, Remedy};
+use driveline::fluctuation::{Balance, FourierSeries, MachineClass, Remedy};
 use driveline::settings::Cycle;
-use serde_json::Value;
 
 use super::motion::{Motion, Part};
 use super::press::Machine;
-use super::rig::{Built, InDouble, LOAD, MOTOR, RATED, STIFFNESS, TORQUE, run};
+use super::rig::RATED;
+use super::waveform::window;
+use crate::references::data;
 
 /// A press on a stiff motor, the same on a soft one, and one whose crank and slider make a quarter of its inertia come
 /// and go.
@@ -61,8 +62,7 @@ fn a_varying_inertia_is_not_a_constant_one() {
 
 #[test]
 fn the_flywheel_of_the_reference_cases() {
-    let path = format!("{}/tests/data/speed_fluctuation.json", env!("CARGO_MANIFEST_DIR"));
-    let document: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let document = data("speed_fluctuation.json");
     let case = &document["flywheel_area_cases"][0];
     let number = |key: &str| case[key].as_f64().unwrap();
     let areas: Vec<f64> = serde_json::from_value(case["areas_J"].clone()).unwrap();
@@ -86,7 +86,7 @@ fn a_remedy_for_each_part() {
     let ripple_of = |amplitude: f64, ramp: f64| {
         let parts = [Part { n: 1.0, amplitude, phase: 0.0 }];
         let mut motion = Motion::new(RATED, ramp, 1.0, &parts);
-        window(&mut motion, Cycle::TURN, 8, 4).0
+        window::<f32>(&mut motion, Cycle::TURN, 8, 4).1
     };
     for (amplitude, ramp, remedy) in [
         (1e-3, 0.0, Remedy::Nothing),
@@ -96,53 +96,4 @@ fn a_remedy_for_each_part() {
     ] {
         assert_eq!(ripple_of(amplitude, ramp).remedy(strict, 0.01), remedy);
     }
-}
-
-/// A ripple, its torque and its cycle, by the real drive.
-fn window(
-    motion: &mut Motion,
-    cycle: Cycle,
-    cycles: u32,
-    highest: usize,
-) -> (driveline::fluctuation::Ripple, FourierSeries, CycleConfig) {
-    let config = f32::constants(cycle, cycles);
-    let mut taken = None;
-    run::<f32>(&config, motion, 200_000, |drive| {
-        taken = drive.fluctuation_mut().1.take();
-        taken.is_some()
-    });
-    let taken = taken.unwrap();
-    let config = &config.fluctuation.1;
-    (taken.ripple(config, highest).unwrap().in_double(), taken.motor_torque(config, highest).in_double(), config.cycle)
-}
-
-const MACHINE: Drivetrain = Drivetrain { motor_inertia: MOTOR, load_inertia: LOAD, stiffness: STIFFNESS, damping: 0.0 };
-
-/// The load by the machine's law: its speed's orders within 1 %, its delta within 1 % and its energy swing within 2 %
-/// of the closed form, where the observer's estimate of the same load is a third off.
-#[test]
-fn the_load_is_known_by_the_machines_law() {
-    let parts = [Part { n: 1.0, amplitude: 0.03, phase: 0.7 }, Part { n: 2.0, amplitude: 0.025, phase: -1.1 }];
-    let mut motion = Motion::new(RATED, 0.0, 2.0, &parts);
-    let (ripple, torque, cycle) = window(&mut motion, Cycle::FOUR_STROKE, 32, 6);
-    assert!((torque.mean - TORQUE).abs() < 1e-3, "{torque:?}");
-    let behind = ripple.load_side(&cycle, &MACHINE, &torque);
-    let at = |k: i32| Motion { phi: f64::from(k) * 1e-4 * TAU * 2.0, time: 0.0, ..motion.clone() };
-    let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
-    let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
-    for k in 0..10_000 {
-        let here = at(k);
-        let ([speed, acceleration, _], load) = (here.motor(), here.load_speed(MOTOR, STIFFNESS));
-        (least, most) = (least.min(load), most.max(load));
-        let twist = (TORQUE - MOTOR * acceleration) / STIFFNESS;
-        let energy = 0.5 * (MOTOR * speed * speed + LOAD * load * load + STIFFNESS * twist * twist);
-        (low, high) = (low.min(energy), high.max(energy));
-        let theta = f64::from(k) * 1e-4 * TAU;
-        let shaft = TORQUE - MOTOR * acceleration;
-        // 3 % of the 7000 N m that it swings by.
-        assert!((behind.shaft_torque.at(theta) - shaft).abs() < 200.0, "{shaft} {}", behind.shaft_torque.at(theta));
-    }
-    let swing = behind.load.max.speed - behind.load.min.speed;
-    assert!((swing / (most - least) - 1.0).abs() < 0.01, "{swing} {}", most - least);
-    assert!((behind.energy_swing / (high - low) - 1.0).abs() < 0.02, "{} {}", behind.energy_swing, high - low);
 }

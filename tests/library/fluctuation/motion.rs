@@ -9,6 +9,8 @@
 
 use core::f64::consts::TAU;
 
+use crate::runge_kutta;
+
 /// One order of the prescribed speed, relative to W.
 #[derive(Clone, Copy, Debug)]
 pub struct Part {
@@ -67,14 +69,25 @@ impl Motion {
         let steps = (dt * self.speed.abs() * highest / 0.004).ceil().max(1.0);
         let h = dt / steps;
         for _ in 0..steps as u32 {
-            let (x, t) = (self.phi, self.time);
-            let a = self.speed_at(x, t);
-            let b = self.speed_at(x + 0.5 * h * a, t + 0.5 * h);
-            let c = self.speed_at(x + 0.5 * h * b, t + 0.5 * h);
-            let d = self.speed_at(x + h * c, t + h);
-            self.phi += h / 6.0 * (a + 2.0 * b + 2.0 * c + d);
-            self.time += h;
+            let rates = |[phi, time]: [f64; 2]| [self.speed_at(phi, time), 1.0];
+            [self.phi, self.time] = runge_kutta::step([self.phi, self.time], h, rates);
         }
+    }
+
+    /// Goes on to an angle by Newton's method: the time to it is what is left over the speed.
+    pub fn advance_to(&mut self, angle: f64) {
+        for _ in 0..6 {
+            let speed = self.motor()[0];
+            self.advance((angle - self.phi) / speed);
+        }
+    }
+
+    /// The mean by time over W, of a cycle: the cycle's angle over the integral of dphi/omega, by the rule of
+    /// rectangles, which is exact for a series.
+    pub fn mean_by_time(&self) -> f64 {
+        let points = 20_000;
+        let slowness = |k: i32| 1.0 / (1.0 + self.ripple(f64::from(k) / f64::from(points) * TAU * self.turns)[0]);
+        f64::from(points) / (0..points).map(slowness).sum::<f64>()
     }
 
     /// Speed, acceleration and jerk of the motor now.

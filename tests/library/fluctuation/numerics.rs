@@ -1,4 +1,4 @@
-//! That nothing drifts, and what standing still, turning back and a lost angle do.
+//! That nothing drifts, and what standing still and turning back do.
 
 use core::f64::consts::TAU;
 
@@ -179,34 +179,4 @@ fn at_a_standstill_and_to_and_fro_there_is_no_cycle() {
     // Two forwards, from the end that the last swing comes to, and one back: the cycle in which a window is taken is
     // left out, and the one that is turned back in.
     assert!(seen.len() == 3 && seen.iter().all(|relative| (relative - 1.0).abs() < 1e-6), "{seen:?}");
-}
-
-/// An angle that could not be used voids what it fell into, and the next whole cycle is good.
-#[test]
-fn a_disturbance_costs_what_it_falls_into() {
-    let cycle = CycleConfig::new(Cycle::TURN, PERIOD, Bases::SI);
-    let config = (cycle, WaveformConfig::new::<BINS>(cycle, 2));
-    let mut parts = <(Extremes<f64>, Waveform<BINS, f64>)>::default();
-    let speed = 1e7 / 4_294_967_296.0 * TAU / PERIOD;
-    let mut good = 0;
-    for k in 0..20_000_u32 {
-        if k % 5_000 > 4_950 {
-            // Fifty ticks without an angle.
-            Fluctuation::<f64>::disturb(&mut parts);
-            assert!(parts.0.reading(&cycle).is_none());
-            continue;
-        }
-        parts.measure(&config, k.wrapping_mul(10_000_000), 0.0, &at(speed));
-        if let Some(reading) = parts.0.reading(&cycle) {
-            assert!((reading.mean / speed - 1.0).abs() < 1e-6, "{k}: {reading:?}");
-        }
-        if let Some(window) = parts.1.take() {
-            let ripple = window.ripple(&config.1, 4).unwrap();
-            // Between a parabola over a bin and a sine of the fourth order some 1e-5 of a bin's time is left.
-            assert!((ripple.mean / speed - 1.0).abs() < 1e-6 && ripple.motor.delta < 5e-5, "{k}: {ripple:?}");
-            good += 1;
-        }
-    }
-    // Eleven turns between two disturbances: three windows of two, a turn lost before each.
-    assert!(good >= 12, "{good}");
 }

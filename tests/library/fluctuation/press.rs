@@ -8,6 +8,7 @@ use driveline::sample::Estimate;
 use driveline::settings::{Bases, Cycle};
 
 use super::rig::{BINS, PERIOD};
+use crate::runge_kutta;
 
 /// `J(phi) phi'' + J'(phi) phi'^2/2 = a - b phi' - M(phi)`.
 #[derive(Clone, Copy, Debug)]
@@ -36,13 +37,8 @@ impl Machine {
     /// Goes on in so many steps of `h` (s) by Runge and Kutta's fourth order.
     fn advance(&self, phi: &mut f64, speed: &mut f64, h: f64, steps: u32) {
         for _ in 0..steps {
-            let (x, v) = (*phi, *speed);
-            let a = (v, self.acceleration(x, v));
-            let b = (v + 0.5 * h * a.1, self.acceleration(x + 0.5 * h * a.0, v + 0.5 * h * a.1));
-            let c = (v + 0.5 * h * b.1, self.acceleration(x + 0.5 * h * b.0, v + 0.5 * h * b.1));
-            let d = (v + h * c.1, self.acceleration(x + h * c.0, v + h * c.1));
-            *phi += h / 6.0 * (a.0 + 2.0 * b.0 + 2.0 * c.0 + d.0);
-            *speed += h / 6.0 * (a.1 + 2.0 * b.1 + 2.0 * c.1 + d.1);
+            let rates = |[phi, speed]: [f64; 2]| [speed, self.acceleration(phi, speed)];
+            [*phi, *speed] = runge_kutta::step([*phi, *speed], h, rates);
         }
     }
 

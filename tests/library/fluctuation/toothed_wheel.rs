@@ -11,6 +11,7 @@ use driveline::settings::{Bases, Cycle, Teeth, ToothClock};
 use driveline::wheel::{CycleTimes, ToothedWheel, ToothedWheelConfig};
 
 use super::motion::{Motion, Part};
+use crate::wheel::edges::Random;
 
 /// A clock of 4 MHz: a count is 39 urad at 157 rad/s.
 const CLOCK: f64 = 4e6;
@@ -30,13 +31,10 @@ fn config(turns: u32) -> ToothedWheelConfig<58> {
     ToothedWheelConfig::new(&Teeth::gap(60, 2), ToothClock { turns, clock: CLOCK, lowest_speed: 10.0 })
 }
 
-/// Even random numbers in +-1, from a linear congruential generator (Knuth, TAOCP 2, 3.3.4, table 1, line 26).
+/// Even random numbers in +-1.
 fn errors(seed: u64) -> [f64; 60] {
-    let mut state = seed;
-    core::array::from_fn(|_| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    })
+    let mut random = Random(seed);
+    core::array::from_fn(|_| 2.0 * random.even() - 1.0)
 }
 
 /// The wheel along a motion until a window of so many cycles is finished.
@@ -54,11 +52,7 @@ fn window<const TEETH: usize>(
         let place = count.rem_euclid(60);
         if place < 58 {
             let angle = count as f64 / 60.0 * TAU + errors[place as usize] * TENTH;
-            // Up to the tooth by Newton's method: the time to it is what is left over the speed.
-            for _ in 0..6 {
-                let speed = motion.motor()[0];
-                motion.advance((angle - motion.phi) / speed);
-            }
+            motion.advance_to(angle);
             // The clock wraps every 18 minutes; begin near its end.
             wheel.tooth(config, ((motion.time * CLOCK) as u64).wrapping_add(0xfff0_0000) as u32);
         }
@@ -285,11 +279,7 @@ fn both(rate: f64, speed: f64, parts: &[Part]) -> [Result<Ripple, Unusable>; 2] 
     for _ in 0..60 * 200 {
         let mut ahead = motion.clone();
         if count.rem_euclid(60) < 58 {
-            let angle = count as f64 / 60.0 * TAU;
-            for _ in 0..6 {
-                let speed = ahead.motor()[0];
-                ahead.advance((angle - ahead.phi) / speed);
-            }
+            ahead.advance_to(count as f64 / 60.0 * TAU);
             while f64::from(tick) / rate < ahead.time {
                 match wheel.at(&config, (f64::from(tick) / rate * CLOCK) as u32) {
                     Ok(angle) => waveform.measure(&bins, angle.angle, 0.0, &Default::default()),

@@ -8,7 +8,7 @@ use driveline::number::Fixed;
 use driveline::settings::Cycle;
 
 use super::motion::{Motion, Part};
-use super::rig::{BINS, Built, InDouble, RATED, run};
+use super::rig::{BINS, Built, InDouble, RATED, TORQUE, run};
 
 /// An order once a turn, delta 1/500.
 const ONE: [Part; 1] = [Part { n: 1.0, amplitude: 1e-3, phase: 2.1 }];
@@ -21,7 +21,7 @@ const SMALL: [Part; 2] =
 const LARGE: [Part; 2] = [Part { n: 1.0, amplitude: 0.03, phase: 0.7 }, Part { n: 2.0, amplitude: 0.025, phase: -1.1 }];
 
 /// The first finished window of a drive along a motion.
-fn window<N: Built>(motion: &mut Motion, cycle: Cycle, cycles: u32, highest: usize) -> (Window<N, BINS>, Ripple) {
+pub fn window<N: Built>(motion: &mut Motion, cycle: Cycle, cycles: u32, highest: usize) -> (Window<N, BINS>, Ripple) {
     let config = N::constants(cycle, cycles);
     let mut window = None;
     run::<N>(&config, motion, 700_000, |drive| {
@@ -161,6 +161,8 @@ fn every_number_fills_the_same_bins() {
     let (exact, _) = window::<f64>(&mut of(()), Cycle::FOUR_STROKE, 8, 8);
     let (single, _) = window::<f32>(&mut of(()), Cycle::FOUR_STROKE, 8, 8);
     let (fixed, _) = window::<Fixed>(&mut of(()), Cycle::FOUR_STROKE, 8, 8);
+    let torque = single.motor_torque(&f32::constants(Cycle::FOUR_STROKE, 8).fluctuation.1, 8).in_double();
+    assert!((torque.mean - TORQUE).abs() < 1e-3, "{torque:?}");
     assert_eq!(angles(&exact), angles(&single));
     assert_eq!(angles(&exact), angles(&fixed));
 }

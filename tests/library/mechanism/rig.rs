@@ -7,6 +7,8 @@ use driveline::machine::{CrankSlider, FourBar, Inertia, Length, Mass, Mechanism,
 use driveline_solver::noise::Noise;
 use driveline_solver::plant::train::{FourBar as Bars, Harmonic, Orders, Toggle as Knee};
 
+use crate::runge_kutta;
+
 pub const LAWS: [&str; 5] = ["slider-crank", "four-bar", "toggle", "cam", "table"];
 
 /// A drawn mechanism and its truth.
@@ -171,21 +173,13 @@ impl Machine {
 
     pub fn tick(&mut self, torque: f64, period: f64) {
         let h = period / 4.0;
-        let f = |angle: f64, speed: f64| {
+        let rates = |[angle, speed]: [f64; 2]| {
             let [inertia, slope, weight] = self.at(angle);
             let taken = 0.5 * slope * speed * speed + weight + self.load + self.viscous * speed;
-            (speed, (torque - taken) / inertia)
+            [speed, (torque - taken) / inertia]
         };
-        let (mut a, mut w) = (self.angle, self.speed);
-        for _ in 0..4 {
-            let k1 = f(a, w);
-            let k2 = f(a + 0.5 * h * k1.0, w + 0.5 * h * k1.1);
-            let k3 = f(a + 0.5 * h * k2.0, w + 0.5 * h * k2.1);
-            let k4 = f(a + h * k3.0, w + h * k3.1);
-            a += h / 6.0 * (k1.0 + 2.0 * k2.0 + 2.0 * k3.0 + k4.0);
-            w += h / 6.0 * (k1.1 + 2.0 * k2.1 + 2.0 * k3.1 + k4.1);
-        }
-        (self.angle, self.speed) = (a, w);
+        let state = (0..4).fold([self.angle, self.speed], |state, _| runge_kutta::step(state, h, rates));
+        [self.angle, self.speed] = state;
     }
 
     /// What an encoder of 2^17 counts shows (2^-32 turn).
