@@ -47,6 +47,20 @@ impl Feed {
             self.update(torque(4.0), speed * (1.0 - f64::from(tick) / 100.0));
         }
     }
+
+    /// Up and down, and again, at a torque that follows from time and speed.
+    fn pairs(&mut self, speed: f64, torque: impl Fn(f64, f64) -> f64) {
+        for speed in [speed, -speed, speed, -speed] {
+            self.run(speed, |time| torque(time, speed));
+        }
+    }
+
+    /// Runs at speeds, each under a load of its own.
+    fn loads<const K: usize>(&mut self, runs: [(f64, f64); K]) {
+        for (speed, load) in runs {
+            self.run(speed, |_| carried(load, 0.94, speed));
+        }
+    }
 }
 
 /// The window's mean of fifty updates has 1.1 N m of noise, of 480 N m: 0.0016 of each torque, half of the sum of both
@@ -85,53 +99,25 @@ fn nonsense_changes_nothing() {
         ("a speed that is not a number", |feed| (0..2000).for_each(|_| feed.update(500.0, f64::NAN))),
         ("infinity", |feed| (0..2000).for_each(|k| feed.update(f64::INFINITY, [155.0, -155.0][k / 100 % 2]))),
         ("a jammed load", |feed| (0..2000).for_each(|k| feed.update([900.0, -900.0][k / 100 % 2], 0.0))),
-        ("no load", |feed| {
-            for speed in [155.0, -155.0, 155.0, -155.0] {
-                feed.run(speed, |_| 20.0 * f64::signum(speed));
-            }
-        }),
+        ("no load", |feed| feed.pairs(155.0, |_, speed| 20.0 * speed.signum())),
         ("one direction", |feed| (0..5).for_each(|_| feed.run(155.0, |_| 550.0))),
         ("a load that changes between", |feed| {
-            for (speed, load) in [(155.0, 500.0), (-155.0, 400.0), (155.0, 480.0), (-155.0, 450.0), (155.0, 600.0)] {
-                feed.run(speed, |_| carried(load, 0.94, speed));
-            }
+            feed.loads([(155.0, 500.0), (-155.0, 400.0), (155.0, 480.0), (-155.0, 450.0), (155.0, 600.0)]);
         }),
-        ("a load that changes once", |feed| {
-            for (speed, load) in [(155.0, 500.0), (-155.0, 440.0), (155.0, 440.0)] {
-                feed.run(speed, |_| carried(load, 0.94, speed));
-            }
-        }),
+        ("a load that changes once", |feed| feed.loads([(155.0, 500.0), (-155.0, 440.0), (155.0, 440.0)])),
         ("a load that changes all the time", |feed| {
-            for speed in [155.0, -155.0, 155.0, -155.0] {
-                feed.run(speed, |time| carried(400.0 + 60.0 * time, 0.94, speed));
-            }
+            feed.pairs(155.0, |time, speed| carried(400.0 + 60.0 * time, 0.94, speed));
         }),
         ("a slipping brake", |feed| {
-            for speed in [155.0, -155.0, 155.0, -155.0] {
-                feed.run(speed, |_| carried(480.0, 0.94, speed) + 150.0 * f64::signum(speed));
-            }
+            feed.pairs(155.0, |_, speed| carried(480.0, 0.94, speed) + 150.0 * speed.signum());
         }),
         ("a brake that grabs", |feed| {
-            for speed in [155.0, -155.0, 155.0, -155.0] {
-                let grab = |time: f64| if time % 0.5 < 0.2 { 200.0 } else { 0.0 };
-                feed.run(speed, |time| carried(480.0, 0.94, speed) + grab(time) * f64::signum(speed));
-            }
+            let grab = |time: f64| if time % 0.5 < 0.2 { 200.0 } else { 0.0 };
+            feed.pairs(155.0, |time, speed| carried(480.0, 0.94, speed) + grab(time) * speed.signum());
         }),
-        ("a torque with the wrong sign", |feed| {
-            for speed in [155.0, -155.0, 155.0, -155.0] {
-                feed.run(speed, |_| 480.0 * f64::signum(speed));
-            }
-        }),
-        ("directions told the wrong way round", |feed| {
-            for speed in [155.0, -155.0, 155.0, -155.0] {
-                feed.run(speed, |_| carried(480.0, 0.94, -speed));
-            }
-        }),
-        ("creep", |feed| {
-            for speed in [10.0, -10.0, 10.0, -10.0] {
-                feed.run(speed, |_| carried(480.0, 0.85, speed));
-            }
-        }),
+        ("a torque with the wrong sign", |feed| feed.pairs(155.0, |_, speed| 480.0 * speed.signum())),
+        ("directions told the wrong way round", |feed| feed.pairs(155.0, |_, speed| carried(480.0, 0.94, -speed))),
+        ("creep", |feed| feed.pairs(10.0, |_, speed| carried(480.0, 0.85, speed))),
         ("speeds that differ", |feed| {
             for speed in [155.0, -60.0, 155.0, -60.0] {
                 feed.run(speed, |_| carried(480.0, 0.85, speed));
