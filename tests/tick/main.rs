@@ -28,3 +28,14 @@ const UNIT: RigidConfig<f64> = RigidConfig {
     speed: 1.0,
     load_share: 0.25,
 };
+
+/// Of the values of a setting these are accepted, and these are refused.
+#[track_caller]
+fn accepts<V: Copy + core::fmt::Debug, T, E>(right: &[V], wrong: &[V], made: impl Fn(V) -> Result<T, E>) {
+    for &value in right {
+        assert!(made(value).is_ok(), "{value:?}");
+    }
+    for &value in wrong {
+        assert!(made(value).is_err(), "{value:?}");
+    }
+}

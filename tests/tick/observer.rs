@@ -84,23 +84,39 @@ fn the_semi_implicit_states_saturate_at_twice_their_base_and_say_so() {
     assert!((TWICE - 1..=TWICE).contains(&observer.estimate(&config).motor_speed.to_bits()));
 }
 
+const ZERO: Coefficient = Coefficient::ZERO;
+
+/// Nothing moves them.
+const RIGID: RigidConfig<Fixed> = RigidConfig {
+    acceleration: ZERO,
+    turn: ZERO,
+    correction: [ZERO; 2],
+    angle_correction: ZERO,
+    speed: ZERO,
+    load_share: ZERO,
+};
+const TWO_MASSES: TwoMassConfig<Fixed> = TwoMassConfig {
+    forcing: [ZERO; 2],
+    twist: [ZERO; 3],
+    twist_rate: [ZERO; 3],
+    acceleration: ZERO,
+    turn: [ZERO; 2],
+    correction: [ZERO; 4],
+    angle_correction: ZERO,
+    speed: ZERO,
+    share: [ZERO; 2],
+    shaft: [ZERO; 2],
+    compliance: ZERO,
+};
+
 /// 150 units times 0.01 and the rounding half make 2 units and leave nothing over. A quarter of the 2 is then half a
 /// unit of turn, which nothing rounds up: a sum begins with what the one before it has left.
 #[test]
 fn a_sum_takes_over_what_the_one_before_has_left() {
-    let zero = Coefficient::ZERO;
     let config = TwoMassConfig::<Fixed> {
-        forcing: [zero; 2],
-        twist: [zero; 3],
-        twist_rate: [zero; 3],
         acceleration: Coefficient::from_f64(0.01).unwrap(),
-        turn: [Coefficient::from_f64(0.25).unwrap(), zero],
-        correction: [zero; 4],
-        angle_correction: zero,
-        speed: zero,
-        share: [zero; 2],
-        shaft: [zero; 2],
-        compliance: zero,
+        turn: [Coefficient::from_f64(0.25).unwrap(), ZERO],
+        ..TWO_MASSES
     };
     let mut observer = TwoMassObserver::<Fixed>::at_rest(&config, 0, Fixed::ZERO);
     // 0.01 in parts of 2^32 lies above a hundredth: 151 units would leave 0.01, 150 leave 1e-8
@@ -196,17 +212,10 @@ fn the_residual_of_a_held_gear_decays() {
     // 2 less 1 accelerate, by which the motor turns by 1/2; a hundred roundings are below 1e-13
     assert!((held.estimate(&config).motor_speed - (1.0 + (9.0 * left - 0.5) / 2.0)).abs() < 1e-12);
 
-    let [friction, zero] = [Coefficient::from_f64(0.125).unwrap(), Coefficient::ZERO];
-    let observer = RigidConfig {
-        acceleration: zero,
-        turn: zero,
-        correction: [friction, zero],
-        angle_correction: zero,
-        speed: zero,
-        load_share: zero,
-    };
+    let friction = Coefficient::from_f64(0.125).unwrap();
+    let observer = RigidConfig { correction: [friction, ZERO], ..RIGID };
     for turned in [1_i32 << 20, -(1 << 20)] {
-        let friction = GearFriction { share: friction, excess: zero };
+        let friction = GearFriction { share: friction, excess: ZERO };
         let config = GearedConfig { observer, friction, stiction_gain: (), deadband: Fixed::from_bits((1 << 20) + 1) };
         let mut held = GearedObserver::<RigidObserver<Fixed>>::at_rest(&config, 0, Fixed::ONE);
         (0..100).for_each(|_| held.step(&config, turned as u32, Fixed::ONE));
@@ -399,57 +408,36 @@ fn tells<O: Observer<Fixed>>(config: &O::Config) {
 
 #[test]
 fn the_observers_tell_of_a_state_beyond_its_base() {
-    let zero = Coefficient::ZERO;
-    tells::<TwoMassObserver<Fixed>>(&TwoMassConfig {
-        forcing: [zero; 2],
-        twist: [zero; 3],
-        twist_rate: [zero; 3],
-        acceleration: zero,
-        turn: [zero; 2],
-        correction: [zero; 4],
-        angle_correction: zero,
-        speed: zero,
-        share: [zero; 2],
-        shaft: [zero; 2],
-        compliance: zero,
-    });
-    let rigid = RigidConfig {
-        acceleration: zero,
-        turn: zero,
-        correction: [zero; 2],
-        angle_correction: zero,
-        speed: zero,
-        load_share: zero,
-    };
-    tells::<RigidObserver<Fixed>>(&rigid);
+    tells::<TwoMassObserver<Fixed>>(&TWO_MASSES);
+    tells::<RigidObserver<Fixed>>(&RIGID);
     tells::<GearedObserver<RigidObserver<Fixed>>>(&GearedConfig {
-        observer: rigid,
+        observer: RIGID,
         friction: GearFriction::default(),
         stiction_gain: (),
         deadband: Fixed::ZERO,
     });
     let flat = TablePoint { inertia_ratio: Fixed::ONE, inertia_slope: Fixed::ZERO };
     tells::<MechanismObserver<Fixed>>(&MechanismConfig {
-        rigid,
+        rigid: RIGID,
         turning: RotorAngleConfig::new(1, 1).unwrap(),
         points: [flat; TABLE_POINTS],
         tool: [],
     });
-    let gains = GapCorrection { states: [zero; 4], angle: zero };
+    let gains = GapCorrection { states: [ZERO; 4], angle: ZERO };
     tells::<BacklashObserver<Fixed>>(&BacklashConfig {
-        forcing: [zero; 2],
+        forcing: [ZERO; 2],
         half_gap: Fixed::from_bits(1 << 20),
-        contact: Contact { twist: [zero; 3], twist_rate: [zero; 3], leaving: [zero; 3] },
-        free: FreeFlight { twist: [zero; 2], twist_rate: zero, meeting: [zero; 3] },
-        acceleration: zero,
-        turn: [zero; 2],
+        contact: Contact { twist: [ZERO; 3], twist_rate: [ZERO; 3], leaving: [ZERO; 3] },
+        free: FreeFlight { twist: [ZERO; 2], twist_rate: ZERO, meeting: [ZERO; 3] },
+        acceleration: ZERO,
+        turn: [ZERO; 2],
         settled: gains,
         searching: gains,
         hold: 0,
-        speed: zero,
-        share: [zero; 2],
-        shaft: [zero; 2],
-        compliance: zero,
+        speed: ZERO,
+        share: [ZERO; 2],
+        shaft: [ZERO; 2],
+        compliance: ZERO,
     });
 }
 

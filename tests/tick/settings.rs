@@ -18,6 +18,8 @@ use driveline::number::{Coefficient, Fixed};
 use driveline::observer::{BacklashConfig, RigidConfig, SemiImplicitConfig, TwoMassConfig};
 use driveline::settings::*;
 
+use super::accepts;
+
 /// 2^-32 turns of a radian, and what a base is of the last place.
 const ANGLE: f64 = 4_294_967_296.0 / TAU;
 const UNIT: f64 = 268_435_456.0;
@@ -43,25 +45,35 @@ fn double(found: f64, expected: f64) {
     assert!((found - expected).abs() <= 1e-14 * expected.abs(), "{found} {expected}");
 }
 
+/// A factor in SI units, and over the bases.
+#[track_caller]
+fn check(si: f64, fixed: Coefficient, value: f64, per_unit: f64) {
+    double(si, value);
+    coefficient(fixed, value * per_unit);
+}
+
+const NO_SHARE: [f64; 3] = [-1e-9, 1.0 + 1e-9, f64::NAN];
+/// What is no torque, no speed and no time.
+const NONE: [f64; 4] = [0.0, -1.0, f64::INFINITY, f64::NAN];
+
 fn machine() -> TwoMass {
     TwoMass::new(Inertia(0.35), Inertia(0.48), Stiffness(2.0e4), Damping(0.5))
 }
 
+fn placed(machine: TwoMass, gains: [f64; 5]) -> PlacedObserver {
+    let step = ExactStep::new(&machine, PERIOD);
+    PlacedObserver { period: PERIOD, machine, step, gains, poles: [(0.0, 0.0); 5] }
+}
+
 #[test]
 fn the_constants_of_two_masses() {
-    let step = ExactStep::new(&machine(), PERIOD);
-    let gains = [0.21, 3.0, 2e-4, 1.5, 40.0];
-    let design = PlacedObserver { period: PERIOD, machine: machine(), step, gains, poles: [(0.0, 0.0); 5] };
-    let (motor, load) = (0.35 / 0.83, 0.48 / 0.83);
+    let design = placed(machine(), [0.21, 3.0, 2e-4, 1.5, 40.0]);
+    let (step, motor, load) = (design.step, 0.35 / 0.83, 0.48 / 0.83);
     let Bases { torque, speed, twist, twist_rate: rate, forcing } = SLOW;
     let (si, fixed) = (
         TwoMassConfig::<f64>::try_of_placed(&design, SLOW).unwrap(),
         TwoMassConfig::<Fixed>::try_of_placed(&design, SLOW).unwrap(),
     );
-    let check = |si: f64, fixed: Coefficient, value: f64, per_unit: f64| {
-        double(si, value);
-        coefficient(fixed, value * per_unit);
-    };
     check(si.forcing[0], fixed.forcing[0], 1.0 / 0.35, torque / forcing);
     check(si.forcing[1], fixed.forcing[1], 1.0 / 0.48, torque / forcing);
     check(si.twist[2], fixed.twist[2], step.g1, forcing / twist / 4.0);
@@ -103,9 +115,8 @@ fn the_constants_of_two_masses() {
 fn a_free_pair_is_rounded_so_that_it_does_not_grow() {
     let of = |stiffness: f64, damping: f64| {
         let machine = TwoMass::new(Inertia(0.35), Inertia(0.48), Stiffness(stiffness), Damping(damping));
-        let step = ExactStep::new(&machine, PERIOD);
-        let design = PlacedObserver { period: PERIOD, machine, step, gains: [0.0; 5], poles: [(0.0, 0.0); 5] };
-        let config = TwoMassConfig::<f32>::try_of_placed(&design, BASES).unwrap();
+        let design = placed(machine, [0.0; 5]);
+        let (config, step) = (TwoMassConfig::<f32>::try_of_placed(&design, BASES).unwrap(), design.step);
         let found = [config.twist[0], config.twist[1], config.twist_rate[0], config.twist_rate[1]];
         (found, [step.n11, step.n12, step.n21, step.n22])
     };
@@ -140,18 +151,12 @@ fn a_free_pair_is_rounded_so_that_it_does_not_grow() {
 
 #[test]
 fn the_constants_of_a_semi_implicit_step() {
-    let step = ExactStep::new(&machine(), PERIOD);
-    let gains = [0.21, 3.0, 2e-4, 1.5, 40.0];
-    let design = PlacedObserver { period: PERIOD, machine: machine(), step, gains, poles: [(0.0, 0.0); 5] };
+    let design = placed(machine(), [0.21, 3.0, 2e-4, 1.5, 40.0]);
     let Bases { torque, speed, .. } = SLOW;
     let (si, fixed) = (
         SemiImplicitConfig::<f64>::try_of_placed(&design, SLOW).unwrap(),
         SemiImplicitConfig::<Fixed>::try_of_placed(&design, SLOW).unwrap(),
     );
-    let check = |si: f64, fixed: Coefficient, value: f64, per_unit: f64| {
-        double(si, value);
-        coefficient(fixed, value * per_unit);
-    };
     check(si.motor, fixed.motor, PERIOD / 0.35, torque / speed);
     check(si.load, fixed.load, PERIOD / 0.48, torque / speed);
     // the spring grows by k T v, the damper's part by d v less d v before
@@ -186,10 +191,6 @@ fn the_constants_of_a_rigid_machine() {
         RigidConfig::<f64>::try_new(&design, 0.6, BASES).unwrap(),
         RigidConfig::<Fixed>::try_new(&design, 0.6, BASES).unwrap(),
     );
-    let check = |si: f64, fixed: Coefficient, value: f64, per_unit: f64| {
-        double(si, value);
-        coefficient(fixed, value * per_unit);
-    };
     check(si.acceleration, fixed.acceleration, PERIOD / 0.83, torque / speed);
     check(si.turn, fixed.turn, 0.5 * PERIOD * ANGLE, speed / (64.0 * UNIT));
     check(si.correction[0], fixed.correction[0], 3.0 / ANGLE, UNIT / 32.0 / speed);
@@ -197,9 +198,7 @@ fn the_constants_of_a_rigid_machine() {
     check(si.angle_correction, fixed.angle_correction, -0.21, 1.0 / 32.0);
     check(si.speed, fixed.speed, 1.0 / (ANGLE * PERIOD), UNIT / speed / 65_536.0);
     check(si.load_share, fixed.load_share, 0.6, 0.25);
-    for (share, is_right) in [(0.0, true), (1.0, true), (-1e-9, false), (1.0 + 1e-9, false), (f64::NAN, false)] {
-        assert_eq!(RigidConfig::<f32>::try_new(&design, share, BASES).is_ok(), is_right, "{share}");
-    }
+    accepts(&[0.0, 1.0], &NO_SHARE, |share| RigidConfig::<f32>::try_new(&design, share, BASES));
 }
 
 /// Bases of a machine: [`Bases::new`] by its rules, for each of the three that may decide the twist rate's.
@@ -228,7 +227,7 @@ fn the_bases_of_a_machine() {
     assert_eq!(Bases::new(&machine, 300.0, 4.0).twist_rate, 8.0);
     let rigid = Bases::rigid(3.0, 2.0);
     assert_eq!((rigid.torque, rigid.speed, rigid.twist, rigid.twist_rate, rigid.forcing), (3.0, 2.0, 1.0, 1.0, 1.0));
-    for value in [0.0, -1.0, f64::INFINITY, f64::NAN] {
+    for value in NONE {
         for bases in [
             Bases { torque: value, ..BASES },
             Bases { speed: value, ..BASES },
@@ -267,8 +266,7 @@ fn the_constants_of_a_speed_loop() {
         (si.damping, fixed.damping, -3.0, gain),
         (si.reset, fixed.reset, 50.0 * PERIOD / (4.0 + 50.0 * PERIOD), 1.0),
     ] {
-        double(si, value);
-        coefficient(fixed, value * per_unit);
+        check(si, fixed, value, per_unit);
     }
     assert_eq!((si.torque_limit, si.ramp), (300.0, 70.0 * PERIOD));
     number(fixed.torque_limit, 300.0 / BASES.torque);
@@ -292,17 +290,14 @@ fn the_constants_of_a_speed_loop() {
     }
     for value in [0.0, -1.0, f64::INFINITY, f64::NAN, 1e43, 1e-50] {
         let torque = SpeedLoopSettings { torque_limit: value, ..settings };
-        let ramp = SpeedLoopSettings { ramp: value, ..settings };
-        for settings in [torque, ramp] {
-            assert!(SpeedLoopConfig::<f32>::try_new(&design, settings, BASES).is_err(), "{settings:?}");
-            assert!(SpeedLoopConfig::<f64>::try_new(&design, settings, BASES).is_err(), "{settings:?}");
-            assert!(SpeedLoopConfig::<Fixed>::try_new(&design, settings, BASES).is_err(), "{settings:?}");
-        }
+        let wrong = [torque, SpeedLoopSettings { ramp: value, ..settings }];
+        accepts(&[], &wrong, |settings| SpeedLoopConfig::<f32>::try_new(&design, settings, BASES));
+        accepts(&[], &wrong, |settings| SpeedLoopConfig::<f64>::try_new(&design, settings, BASES));
+        accepts(&[], &wrong, |settings| SpeedLoopConfig::<Fixed>::try_new(&design, settings, BASES));
     }
-    for (limit, is_right) in [(BASES.torque, true), (1.0001 * BASES.torque, false)] {
-        let settings = SpeedLoopSettings { torque_limit: limit, ..settings };
-        assert_eq!(SpeedLoopConfig::<Fixed>::try_new(&design, settings, BASES).is_ok(), is_right);
-    }
+    accepts(&[BASES.torque], &[1.0001 * BASES.torque], |torque_limit| {
+        SpeedLoopConfig::<Fixed>::try_new(&design, SpeedLoopSettings { torque_limit, ..settings }, BASES)
+    });
 }
 
 /// In a tick the integral may take up four units of 2^-32 turn: half a unit of the turn's factor, at the base of the
@@ -339,16 +334,11 @@ fn a_loop_whose_roundings_move_the_torque_is_refused() {
             tried(1.0, integral, 0.999 * limit, BASES.torque).unwrap_err()
         );
     }
-    for torque_limit in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+    accepts(&[], &NONE, |torque_limit| {
         let settings = SpeedLoopSettings { torque_limit, ramp: 7.0 };
-        assert!(
-            Gains::<f64>::try_of_speed_loop(&speed_loop(1.0, 1.0, 0.0), settings, BASES).is_err(),
-            "{torque_limit}"
-        );
-    }
-    for (share, is_right) in [(1.001, true), (0.999, false)] {
-        assert_eq!(SymmetricLimitConfig::<Fixed>::try_new(share * base / 8192.0, BASES).is_ok(), is_right);
-    }
+        Gains::<f64>::try_of_speed_loop(&speed_loop(1.0, 1.0, 0.0), settings, BASES)
+    });
+    accepts(&[1.001], &[0.999], |share| SymmetricLimitConfig::<Fixed>::try_new(share * base / 8192.0, BASES));
 }
 
 fn governor(proportional: f64, integral: f64, acceleration: f64) -> GovernorDesign {
@@ -379,8 +369,7 @@ fn the_constants_of_a_governor() {
         (si.proportional, fixed.proportional, 4.0 + 50.0 * PERIOD, gain),
         (si.reset, fixed.reset, 50.0 * PERIOD / (4.0 + 50.0 * PERIOD), 1.0),
     ] {
-        double(si, value);
-        coefficient(fixed, value * per_unit);
+        check(si, fixed, value, per_unit);
     }
     assert_eq!(si.ramp, 70.0 * PERIOD);
     number(fixed.ramp, 70.0 * PERIOD / BASES.speed);
@@ -399,28 +388,21 @@ fn the_constants_of_a_governor() {
     }
     let of_loop = Gains::<f64>::try_of_speed_loop(&speed_loop(4.0, 50.0, 3.0), with_ramp(70.0), BASES).unwrap();
     assert_eq!(of_loop, si);
-    for proportional in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e39] {
-        assert!(
-            Gains::<f32>::try_new(&governor(proportional, 50.0, 0.3), with_ramp(70.0), BASES).is_err(),
-            "{proportional}"
-        );
-    }
-    for integral in [-1.0, f64::NAN, f64::INFINITY] {
-        assert!(Gains::<f64>::try_new(&governor(4.0, integral, 0.3), with_ramp(70.0), BASES).is_err(), "{integral}");
-    }
-    for ramp in [0.0, -70.0, f64::NAN, f64::INFINITY, 1e43] {
-        assert!(Gains::<f32>::try_new(&design, with_ramp(ramp), BASES).is_err(), "{ramp}");
-        assert!(Gains::<Fixed>::try_new(&design, with_ramp(ramp), BASES).is_err(), "{ramp}");
-    }
-    // a unit in the last place of the base in a tick
-    for (places, is_right) in [(1.001, true), (0.999, false)] {
-        let ramp = places / UNIT * BASES.speed / PERIOD;
-        assert_eq!(Gains::<Fixed>::try_new(&design, with_ramp(ramp), BASES).is_ok(), is_right, "{places}");
-        assert!(Gains::<f32>::try_new(&design, with_ramp(ramp), BASES).is_ok());
-    }
+    accepts(&[], &[0.0, -1.0, f64::NAN, f64::INFINITY, 1e39], |proportional| {
+        Gains::<f32>::try_new(&governor(proportional, 50.0, 0.3), with_ramp(70.0), BASES)
+    });
+    accepts(&[], &[-1.0, f64::NAN, f64::INFINITY], |integral| {
+        Gains::<f64>::try_new(&governor(4.0, integral, 0.3), with_ramp(70.0), BASES)
+    });
+    // a unit in the last place of the base in a tick, and the least `f32`
+    let place = BASES.speed / UNIT / PERIOD;
     let least = f64::from(f32::MIN_POSITIVE) / PERIOD;
-    assert!(Gains::<f32>::try_new(&design, with_ramp(1.001 * least), BASES).is_ok());
-    assert!(Gains::<f32>::try_new(&design, with_ramp(0.999 * least), BASES).is_err());
+    let none = [0.0, -70.0, f64::NAN, f64::INFINITY, 1e43];
+    let [single, fixed] = [[&none[..], &[0.999 * least]].concat(), [&none[..], &[0.999 * place]].concat()];
+    accepts(&[1.001 * place, 0.999 * place, 1.001 * least], &single, |ramp| {
+        Gains::<f32>::try_new(&design, with_ramp(ramp), BASES)
+    });
+    accepts(&[1.001 * place], &fixed, |ramp| Gains::<Fixed>::try_new(&design, with_ramp(ramp), BASES));
 }
 
 #[test]
@@ -432,35 +414,31 @@ fn the_constants_of_a_governors_parts() {
     coefficient(fixed.droop, 0.015 * BASES.torque / BASES.speed);
     assert!(DroopConfig::<f64>::try_new(0.0, 150.0, 300.0, 1e9, BASES).is_ok());
     // the integral alone decays by 1 - 0.015 k_i T a tick
-    for (integral, is_right) in [(0.0, true), (16.6, true), (16.7, false), (-1e-9, false), (f64::NAN, false)] {
-        assert_eq!(DroopConfig::<f32>::try_new(0.03, 150.0, 300.0, integral, BASES).is_ok(), is_right, "{integral}");
-    }
-    for (droop, speed, torque) in [
-        (-0.01, 150.0, 300.0),
-        (0.01, 0.0, 300.0),
-        (0.01, -150.0, -300.0),
-        (0.0, 150.0, 0.0),
-        (0.01, 150.0, 0.0),
-        (-0.01, 150.0, -300.0),
-        (f64::NAN, 150.0, 300.0),
-        (f64::INFINITY, 150.0, 300.0),
-    ] {
-        assert!(DroopConfig::<f32>::try_new(droop, speed, torque, 1.0, BASES).is_err(), "{droop} {speed} {torque}");
-    }
+    accepts(&[0.0, 16.6], &[16.7, -1e-9, f64::NAN], |integral| {
+        DroopConfig::<f32>::try_new(0.03, 150.0, 300.0, integral, BASES)
+    });
+    let wrong = [
+        [-0.01, 150.0, 300.0],
+        [0.01, 0.0, 300.0],
+        [0.01, -150.0, -300.0],
+        [0.0, 150.0, 0.0],
+        [0.01, 150.0, 0.0],
+        [-0.01, 150.0, -300.0],
+        [f64::NAN, 150.0, 300.0],
+        [f64::INFINITY, 150.0, 300.0],
+    ];
+    accepts(&[], &wrong, |[droop, speed, torque]| DroopConfig::<f32>::try_new(droop, speed, torque, 1.0, BASES));
     let si = FeedForwardConfig::<f64>::try_new(0.7, BASES).unwrap();
     assert_eq!(si.share, 0.7);
     coefficient(FeedForwardConfig::<Fixed>::try_new(0.7, BASES).unwrap().share, 0.175);
-    for (share, is_right) in [(0.0, true), (1.0, true), (-1e-9, false), (1.0 + 1e-9, false), (f64::NAN, false)] {
-        assert_eq!(FeedForwardConfig::<f64>::try_new(share, BASES).is_ok(), is_right, "{share}");
-    }
+    accepts(&[0.0, 1.0], &NO_SHARE, |share| FeedForwardConfig::<f64>::try_new(share, BASES));
     let si = AccelerationFeedbackConfig::<f64>::try_new(&governor(4.0, 50.0, 0.7), BASES).unwrap();
     assert_eq!(si.feedback, -0.7);
     let fixed = AccelerationFeedbackConfig::<Fixed>::try_new(&governor(4.0, 50.0, 0.7), BASES).unwrap();
     coefficient(fixed.feedback, -0.175);
-    for (feedback, is_right) in [(0.0, true), (-1e-9, false), (1e39, false), (f64::NAN, false)] {
-        let design = governor(4.0, 50.0, feedback);
-        assert_eq!(AccelerationFeedbackConfig::<f32>::try_new(&design, BASES).is_ok(), is_right, "{feedback}");
-    }
+    accepts(&[0.0], &[-1e-9, 1e39, f64::NAN], |feedback| {
+        AccelerationFeedbackConfig::<f32>::try_new(&governor(4.0, 50.0, feedback), BASES)
+    });
     let si = ActiveDampingConfig::<f64>::try_new(&speed_loop(4.0, 50.0, 3.0), BASES).unwrap();
     assert_eq!(si.damping, -3.0);
     let fixed = ActiveDampingConfig::<Fixed>::try_new(&speed_loop(4.0, 50.0, 3.0), BASES).unwrap();
@@ -473,29 +451,16 @@ fn the_constants_of_a_governors_parts() {
     let range = TorqueRangeConfig::<Fixed>::try_new(-40.0, 300.0, BASES).unwrap();
     number(range.min, -40.0 / BASES.torque);
     number(range.max, 300.0 / BASES.torque);
-    for (min, max, is_right) in [
-        (0.0, 1.0, true),
-        (1e-9, 1.0, false),
-        (-1.0, 0.0, false),
-        (-1.0, 1e-9, true),
-        (-1e39, 1.0, false),
-        (-1.0, 1e39, false),
-        (f64::NAN, 1.0, false),
-        (-1.0, f64::NAN, false),
-    ] {
-        assert_eq!(TorqueRangeConfig::<f32>::try_new(min, max, BASES).is_ok(), is_right, "{min} {max}");
-    }
-    for (most, is_right) in [(1.0, true), (1.0001, false)] {
-        let torque = most * BASES.torque;
-        assert_eq!(TorqueRangeConfig::<Fixed>::try_new(-torque, 0.1 * BASES.torque, BASES).is_ok(), is_right);
-        assert_eq!(SymmetricLimitConfig::<Fixed>::try_new(torque, BASES).is_ok(), is_right);
-    }
+    let wrong = [[1e-9, 1.0], [-1.0, 0.0], [-1e39, 1.0], [-1.0, 1e39], [f64::NAN, 1.0], [-1.0, f64::NAN]];
+    accepts(&[[0.0, 1.0], [-1.0, 1e-9]], &wrong, |[min, max]| TorqueRangeConfig::<f32>::try_new(min, max, BASES));
+    let (most, beyond) = (BASES.torque, 1.0001 * BASES.torque);
+    accepts(&[most], &[beyond], |most| TorqueRangeConfig::<Fixed>::try_new(-most, 0.1 * BASES.torque, BASES));
+    accepts(&[most], &[beyond], |most| SymmetricLimitConfig::<Fixed>::try_new(most, BASES));
     for (delay, ticks) in [(0.0, Some(0)), (1.49e-4, Some(1)), (1.51e-4, Some(2)), (3.49e-4, Some(3))] {
         assert_eq!(TransportDelayConfig::<4>::try_new(delay, PERIOD).map(|delay| delay.ticks).ok(), ticks);
     }
-    for (delay, period) in [(3.51e-4, PERIOD), (-1e-9, PERIOD), (1e-4, 0.0), (-1e-4, -1e-4), (f64::NAN, 1.0)] {
-        assert!(TransportDelayConfig::<4>::try_new(delay, period).is_err(), "{delay} {period}");
-    }
+    let wrong = [[3.51e-4, PERIOD], [-1e-9, PERIOD], [1e-4, 0.0], [-1e-4, -1e-4], [f64::NAN, 1.0]];
+    accepts(&[], &wrong, |[delay, period]| TransportDelayConfig::<4>::try_new(delay, period));
     assert_eq!(MovingAverageConfig::<f64, 8>::of_ticks().share, 0.125);
     assert_eq!(MovingAverageConfig::<f32, 8>::of_ticks().share, 0.125);
     assert_eq!(MovingAverageConfig::<Fixed, 8>::of_ticks().share.to_f64(), 0.125);
@@ -580,15 +545,13 @@ fn the_constants_of_shapes() {
     assert!(
         BarredConfig::<f64, 2>::try_new(&BarredSpeeds::new(&[100.0], &[1.0], 0.1, 200.0), 70.0, PERIOD, BASES).is_err()
     );
-    for ramp in [0.0, -70.0, f64::NAN, 1e43] {
-        assert!(BarredConfig::<f32, 1>::try_new(&barred, ramp, PERIOD, BASES).is_err(), "{ramp}");
-    }
-    for (places, is_right) in [(1.001, true), (0.999, false)] {
-        let ramp = places / UNIT * BASES.speed / PERIOD;
-        assert_eq!(BarredConfig::<Fixed, 1>::try_new(&barred, ramp, PERIOD, BASES).is_ok(), is_right);
-        let rate = places / UNIT * BASES.torque / PERIOD;
-        assert_eq!(SlewConfig::<Fixed, ()>::try_new(rate, (), PERIOD, BASES).is_ok(), is_right);
-    }
+    accepts(&[], &[0.0, -70.0, f64::NAN, 1e43], |ramp| BarredConfig::<f32, 1>::try_new(&barred, ramp, PERIOD, BASES));
+    accepts(&[1.001], &[0.999], |places| {
+        BarredConfig::<Fixed, 1>::try_new(&barred, places / UNIT * BASES.speed / PERIOD, PERIOD, BASES)
+    });
+    accepts(&[1.001], &[0.999], |places| {
+        SlewConfig::<Fixed, ()>::try_new(places / UNIT * BASES.torque / PERIOD, (), PERIOD, BASES)
+    });
 
     let curve = TorqueCurve::through([[0.0, 100.0], [50.0, 250.0], [90.0, 200.0]]);
     let si = CurveConfig::<f64, 3>::try_new(&curve, -20.0, BASES).unwrap();
@@ -604,17 +567,12 @@ fn the_constants_of_shapes() {
     }
     assert_eq!(si.min, -20.0);
     number(fixed.min, -20.0 / BASES.torque);
-    assert!(CurveConfig::<f64, 3>::try_new(&curve, 0.0, BASES).is_ok());
-    for min in [1e-9, f64::NAN, f64::NEG_INFINITY] {
-        assert!(CurveConfig::<f64, 3>::try_new(&curve, min, BASES).is_err(), "{min}");
-    }
+    accepts(&[0.0], &[1e-9, f64::NAN, f64::NEG_INFINITY], |min| CurveConfig::<f64, 3>::try_new(&curve, min, BASES));
 
     let si = SlewConfig::<f64, ()>::try_new(5_000.0, (), PERIOD, BASES).unwrap();
     double(si.step, 0.5);
     number(SlewConfig::<Fixed, ()>::try_new(5_000.0, (), PERIOD, BASES).unwrap().step, 0.5 / BASES.torque);
-    for rate in [0.0, -1.0, f64::NAN, 1e43] {
-        assert!(SlewConfig::<f32, ()>::try_new(rate, (), PERIOD, BASES).is_err(), "{rate}");
-    }
+    accepts(&[], &[0.0, -1.0, f64::NAN, 1e43], |rate| SlewConfig::<f32, ()>::try_new(rate, (), PERIOD, BASES));
 
     let design = InputShaperDesign { delay: 0.8, share: 0.4 };
     let si = InputShaperConfig::<f64, ()>::try_new(&design, 16, 70.0, (), PERIOD, BASES).unwrap();
@@ -622,11 +580,10 @@ fn the_constants_of_shapes() {
     let fixed = InputShaperConfig::<Fixed, ()>::try_new(&design, 16, 70.0, (), PERIOD, BASES).unwrap();
     coefficient(fixed.share, 0.4);
     number(fixed.ramp, 70.0 * PERIOD / BASES.speed);
-    for (share, is_right) in [(0.5, true), (0.5001, false), (1e-6, true), (0.0, false), (f64::NAN, false)] {
-        let design = InputShaperDesign { share, ..design };
-        assert_eq!(InputShaperConfig::<f64, ()>::try_new(&design, 16, 70.0, (), PERIOD, BASES).is_ok(), is_right);
-        assert_eq!(InputShaperConfig::<Fixed, ()>::try_new(&design, 16, 70.0, (), PERIOD, BASES).is_ok(), is_right);
-    }
+    let (right, wrong) = ([0.5, 1e-6], [0.5001, 0.0, f64::NAN]);
+    let of = |share| InputShaperDesign { share, ..design };
+    accepts(&right, &wrong, |s| InputShaperConfig::<f64, ()>::try_new(&of(s), 16, 70.0, (), PERIOD, BASES));
+    accepts(&right, &wrong, |s| InputShaperConfig::<Fixed, ()>::try_new(&of(s), 16, 70.0, (), PERIOD, BASES));
 }
 
 #[test]
@@ -723,13 +680,11 @@ fn the_constants_of_screening_and_monitor() {
             assert!(Limits::<f32>::try_new(&screening, BASES).is_ok());
         }
     }
-    for (frozen_turn, is_right) in [(0.0, true), (-1e-9, false), (f64::NAN, false), (f64::INFINITY, false)] {
-        let screening = Screening { frozen_turn, ..screening };
-        assert_eq!(Limits::<f64>::try_new(&screening, BASES).is_ok(), is_right, "{frozen_turn}");
-        assert_eq!(Limits::<Fixed>::try_new(&screening, BASES).is_ok(), is_right, "{frozen_turn}");
-    }
+    let (of, wrong) = (|frozen_turn| Screening { frozen_turn, ..screening }, [-1e-9, f64::NAN, f64::INFINITY]);
+    accepts(&[0.0], &wrong, |turn| Limits::<f64>::try_new(&of(turn), BASES));
+    accepts(&[0.0], &wrong, |turn| Limits::<Fixed>::try_new(&of(turn), BASES));
     // 1e43 is beyond `f32`
-    assert!(Limits::<f32>::try_new(&Screening { frozen_turn: 1e43, ..screening }, BASES).is_err());
+    accepts(&[], &[1e43], |turn| Limits::<f32>::try_new(&of(turn), BASES));
     for value in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e43] {
         for screening in [
             Screening { torque: value, ..screening },
@@ -751,36 +706,30 @@ fn the_constants_of_screening_and_monitor() {
     coefficient(fixed.share[0], 0.283_468_689_426_210_74);
     number(fixed.tolerance, 15.0 / BASES.torque);
     number(fixed.max_torque, 350.0 / BASES.torque);
-    let tried = |lag: f64, settings: &ActuatorMonitorSettings| {
-        ActuatorMonitorConfig::<f32, 1>::try_new(&[lag], settings, PERIOD, BASES).is_ok()
-    };
-    for lag in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(!tried(lag, &settings), "{lag}");
-    }
-    for (tolerance, max_torque, is_right) in [
-        (349.0, 350.0, true),
-        (350.0, 350.0, false),
-        (0.0, 350.0, false),
-        (-1.0, 350.0, false),
-        (1e-46, 350.0, false),
-        (1e39, 1e40, false),
-        (f64::NAN, 350.0, false),
-        (15.0, f64::INFINITY, false),
-    ] {
+    type Monitor<N> = ActuatorMonitorConfig<N, 1>;
+    accepts(&[], &NONE, |lag| Monitor::<f32>::try_new(&[lag], &settings, PERIOD, BASES));
+    let wrong = [
+        [350.0, 350.0],
+        [0.0, 350.0],
+        [-1.0, 350.0],
+        [1e-46, 350.0],
+        [1e39, 1e40],
+        [f64::NAN, 350.0],
+        [15.0, f64::INFINITY],
+    ];
+    accepts(&[[349.0, 350.0]], &wrong, |[tolerance, max_torque]| {
         let settings = ActuatorMonitorSettings { tolerance, max_torque, ..settings };
-        assert_eq!(tried(1e-3, &settings), is_right, "{settings:?}");
-    }
-    assert!(!tried(1e-3, &ActuatorMonitorSettings { timeout: -1.0, ..settings }));
+        Monitor::<f32>::try_new(&[1e-3], &settings, PERIOD, BASES)
+    });
+    accepts(&[], &[-1.0], |timeout| {
+        Monitor::<f32>::try_new(&[1e-3], &ActuatorMonitorSettings { timeout, ..settings }, PERIOD, BASES)
+    });
     // in fixed point a lag of 1.44 ticks covers half its way in one
-    for (ticks, is_right) in [(1.44, false), (1.45, true)] {
-        let fixed = ActuatorMonitorConfig::<Fixed, 1>::try_new(&[ticks * PERIOD], &settings, PERIOD, BASES);
-        assert_eq!(fixed.is_ok(), is_right, "{ticks}");
-    }
-    for (places, is_right) in [(1.001, true), (0.999, false)] {
+    accepts(&[1.45], &[1.44], |ticks| Monitor::<Fixed>::try_new(&[ticks * PERIOD], &settings, PERIOD, BASES));
+    accepts(&[1.001], &[0.999], |places| {
         let settings = ActuatorMonitorSettings { tolerance: places / UNIT * BASES.torque, ..settings };
-        let fixed = ActuatorMonitorConfig::<Fixed, 1>::try_new(&[1e-3], &settings, PERIOD, BASES);
-        assert_eq!(fixed.is_ok(), is_right, "{places}");
-    }
+        Monitor::<Fixed>::try_new(&[1e-3], &settings, PERIOD, BASES)
+    });
 }
 
 /// Torques over the base, a rate times the period, what damps with its sign and per unit of the bases, and 1/k_p.
@@ -836,10 +785,6 @@ fn the_constants_of_a_backlash_observer() {
         BacklashConfig::<Fixed>::try_new(&design, bases).unwrap(),
     );
     let Bases { torque, speed, twist, twist_rate: rate, forcing } = bases;
-    let check = |si: f64, fixed: Coefficient, value: f64, per_unit: f64| {
-        double(si, value);
-        coefficient(fixed, value * per_unit);
-    };
     // d/J of the two masses in series
     let damper = 40.0 * (1.0 / 0.35 + 1.0 / 0.48);
     let step = design.contact.step;

@@ -4,6 +4,8 @@ use driveline::balancing::Steadiness;
 use driveline::settings::*;
 use driveline::wheel::{Cam, ToothedWheelConfig};
 
+use super::accepts;
+
 const TURN: f64 = 4_294_967_296.0;
 const CLOCK: ToothClock = ToothClock { turns: 2, clock: 1e6, lowest_speed: 10.0 };
 
@@ -87,44 +89,29 @@ fn the_constants_of_a_wheel() {
 
 #[test]
 fn the_limits_of_a_wheel() {
-    let of = |angles: [f64; 3], clock: ToothClock| ToothedWheelConfig::try_new(&Teeth { angles }, clock).is_ok();
+    let of = |angles: [f64; 3], clock: ToothClock| ToothedWheelConfig::try_new(&Teeth { angles }, clock);
     let even = [0.0, 0.3, 0.6];
-    for (angles, is_right) in [
-        (even, true),
-        ([0.0, 0.3, 0.3], false),
-        ([0.0, 0.6, 0.3], false),
-        ([-0.1, 0.3, 0.6], false),
-        ([0.0, 0.3, 1.0], false),
-        ([0.1, 0.3, 1.0], false),
-        ([0.0, 0.3, 0.999], true),
-        ([0.0, 0.3, 0.300_051], true),
-        ([0.0, 0.3, 0.300_049], false),
-        ([0.0, 0.3, 0.999_951], false),
-        ([0.0, f64::NAN, 0.6], false),
-    ] {
-        assert_eq!(of(angles, CLOCK), is_right, "{angles:?}");
-    }
-    for (turns, is_right) in [(1, true), (8, true), (0, false), (9, false)] {
-        assert_eq!(of(even, ToothClock { turns, ..CLOCK }), is_right, "{turns}");
-    }
-    for (clock, is_right) in [(1e6, true), (0.0, false), (-1.0, false), (f64::INFINITY, false), (f64::NAN, false)] {
-        assert_eq!(of(even, ToothClock { clock, ..CLOCK }), is_right, "{clock}");
-    }
+    let wrong = [
+        [0.0, 0.3, 0.3],
+        [0.0, 0.6, 0.3],
+        [-0.1, 0.3, 0.6],
+        [0.0, 0.3, 1.0],
+        [0.1, 0.3, 1.0],
+        [0.0, 0.3, 0.300_049],
+        [0.0, 0.3, 0.999_951],
+        [0.0, f64::NAN, 0.6],
+    ];
+    accepts(&[even, [0.0, 0.3, 0.999], [0.0, 0.3, 0.300_051]], &wrong, |angles| of(angles, CLOCK));
+    accepts(&[1, 8], &[0, 9], |turns| of(even, ToothClock { turns, ..CLOCK }));
+    let clocked = |clock| of(even, ToothClock { clock, ..CLOCK });
+    accepts(&[1e6], &[0.0, -1.0, f64::INFINITY, f64::NAN], clocked);
     // 2^30 counts on a turn at most, and one at least
-    let of_counts = |counts: f64| std::f64::consts::TAU * CLOCK.clock / counts;
-    for (counts, is_right) in
-        [(1_073_741_823.0, true), (1_073_741_825.0, false), (1.001, true), (0.999, false), (-1e3, false)]
-    {
-        assert_eq!(of(even, ToothClock { lowest_speed: of_counts(counts), ..CLOCK }), is_right, "{counts}");
-    }
+    accepts(&[1_073_741_823.0, 1.001], &[1_073_741_825.0, 0.999, -1e3], |counts| {
+        of(even, ToothClock { lowest_speed: std::f64::consts::TAU * CLOCK.clock / counts, ..CLOCK })
+    });
     // a clock is refused as one, whatever the counts
-    let refused =
-        |clock: f64| ToothedWheelConfig::try_new(&Teeth { angles: even }, ToothClock { clock, ..CLOCK }).err();
-    assert!([0.0, f64::INFINITY].iter().all(|&clock| refused(clock) == refused(-1.0)));
-    assert!(
-        refused(-1.0)
-            != ToothedWheelConfig::try_new(&Teeth { angles: even }, ToothClock { lowest_speed: 0.0, ..CLOCK }).err()
-    );
+    assert!([0.0, f64::INFINITY].iter().all(|&clock| clocked(clock).err() == clocked(-1.0).err()));
+    assert!(clocked(-1.0).err() != of(even, ToothClock { lowest_speed: 0.0, ..CLOCK }).err());
     assert!(ToothedWheelConfig::try_new(&Teeth::<10_000>::gap(10_000, 0), CLOCK).is_ok());
     assert!(ToothedWheelConfig::try_new(&Teeth::<10_001>::gap(10_001, 0), CLOCK).is_err());
     // one tooth more at a whole turn is beyond the last place

@@ -9,6 +9,8 @@ use driveline::fluctuation::{
 use driveline::sample::Estimate;
 use driveline::settings::{Bases, Cycle};
 
+use super::accepts;
+
 const PERIOD: f64 = 1e-4;
 const BINS: usize = 64;
 /// 2^-32 turns of a radian.
@@ -47,6 +49,19 @@ impl Motion {
     /// The slowness over its mean, at an angle of the cycle.
     fn slowness(&self, theta: f64) -> f64 {
         1.0 + self.orders.iter().map(|[n, cos, sin]| cos * (n * theta).cos() + sin * (n * theta).sin()).sum::<f64>()
+    }
+
+    /// The largest and the least speed over its mean, each with its angle of the cycle. Backwards the speeds are
+    /// negative, and the least magnitude is the largest of them.
+    fn extremes(&self) -> [(f64, f64); 2] {
+        let (mut fast, mut slow) = ((0.0, 0.0), (f64::INFINITY, 0.0));
+        for k in 0..20_000 {
+            let theta = f64::from(k) / 20_000.0 * TAU;
+            let speed = 1.0 / self.slowness(theta);
+            fast = if speed > fast.0 { (speed, theta) } else { fast };
+            slow = if speed < slow.0 { (speed, theta) } else { slow };
+        }
+        if self.forward { [fast, slow] } else { [slow, fast] }
     }
 
     fn config(&self) -> WaveformConfig {
@@ -146,15 +161,7 @@ fn orders_mean_and_extremes_of_a_steady_motion() {
                 let firm = motion.speed() * motion.speed() / (TAU * motion.turns());
                 assert!(ripple.acceleration.abs() < accuracy * firm && ripple.quality.trend.abs() < accuracy);
                 assert_eq!((ripple.cycles, ripple.quality.missed, ripple.quality.spread), (cycles, 0, 0.0));
-                let (mut fast, mut slow) = ((0.0, 0.0), (f64::INFINITY, 0.0));
-                for k in 0..20_000 {
-                    let theta = f64::from(k) / 20_000.0 * TAU;
-                    let speed = 1.0 / motion.slowness(theta);
-                    fast = if speed > fast.0 { (speed, theta) } else { fast };
-                    slow = if speed < slow.0 { (speed, theta) } else { slow };
-                }
-                // backwards the speeds are negative, and the least magnitude is the largest of them
-                let [max, min] = if forward { [fast, slow] } else { [slow, fast] };
+                let [max, min] = motion.extremes();
                 for (found, (speed, theta)) in [(ripple.motor.max, max), (ripple.motor.min, min)] {
                     assert!((found.speed / ripple.mean - speed).abs() < 4.0 * accuracy, "{found:?} {speed}");
                     // the curvature there is 0.1 of the mean: the root of the speed's error over half of it
@@ -315,14 +322,7 @@ fn extremes_cycle_by_cycle() {
                 let duration = motion.ticks * motion.turns() * PERIOD;
                 assert!((reading.duration / duration - 1.0).abs() < 1e-6, "{reading:?}");
                 for (found, of) in [(reading.motor, &motion), (reading.load, &load)] {
-                    let (mut fast, mut slow) = ((0.0, 0.0), (f64::INFINITY, 0.0));
-                    for k in 0..20_000 {
-                        let theta = f64::from(k) / 20_000.0 * TAU;
-                        let speed = of.speed() / of.slowness(theta);
-                        fast = if speed > fast.0 { (speed, theta) } else { fast };
-                        slow = if speed < slow.0 { (speed, theta) } else { slow };
-                    }
-                    let [max, min] = if forward { [fast, slow] } else { [slow, fast] };
+                    let [max, min] = of.extremes().map(|(speed, theta)| (of.speed() * speed, theta));
                     for (found, (speed, theta)) in [(found.max, max), (found.min, min)] {
                         assert!((found.speed - sign * speed).abs() < 1e-6 * of.speed(), "{found:?} {speed}");
                         let beside = (found.angle / motion.turns() - theta).abs();
@@ -374,27 +374,13 @@ fn the_constants_of_a_cycle() {
     // 3 2^32 = 20 * 644,245,094 + 8: one whole and three fifths
     assert_eq!((three.whole, three.part), (1, 3));
     assert_eq!(three.angle, 0.6 * TAU);
-    for (turns, cycles, is_right) in [
-        (16, 1, true),
-        (17, 1, false),
-        (0, 1, false),
-        (1, 0, false),
-        (65_535, 65_535, true),
-        (65_536, 65_535, false),
-        (65_535, 65_536, false),
-        (1, 65_535, true),
-    ] {
-        assert_eq!(of(turns, cycles).is_ok(), is_right, "{turns} {cycles}");
-    }
-    for period in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(CycleConfig::try_new(Cycle::TURN, period, Bases::SI).is_err(), "{period}");
-    }
+    let wrong = [[17, 1], [0, 1], [1, 0], [65_536, 65_535], [65_535, 65_536]];
+    accepts(&[[16, 1], [65_535, 65_535], [1, 65_535]], &wrong, |[turns, cycles]| of(turns, cycles));
+    accepts(&[], &[0.0, -1.0, f64::NAN, f64::INFINITY], |period| CycleConfig::try_new(Cycle::TURN, period, Bases::SI));
     let waveform = WaveformConfig::try_new::<64>(two, 5).unwrap();
     // eight bins to a segment of 2^30, in 2^-50
     assert_eq!((waveform.cycles, waveform.per_segment, waveform.scale), (5, 8, 1 << 23));
-    for (cycles, is_right) in [(1, true), (65_535, true), (0, false), (65_536, false)] {
-        assert_eq!(WaveformConfig::try_new::<64>(two, cycles).is_ok(), is_right, "{cycles}");
-    }
+    accepts(&[1, 65_535], &[0, 65_536], |cycles| WaveformConfig::try_new::<64>(two, cycles));
     assert!(WaveformConfig::try_new::<8>(two, 1).is_ok() && WaveformConfig::try_new::<4>(two, 1).is_err());
     assert!(WaveformConfig::try_new::<1024>(two, 1).is_ok() && WaveformConfig::try_new::<2048>(two, 1).is_err());
     assert!(WaveformConfig::try_new::<48>(two, 1).is_err());
