@@ -32,6 +32,18 @@ pub struct Duty {
     pub jam: usize,
 }
 
+impl Duty {
+    /// Of a machine that holds nothing and whose load, which jams, is behind one shaft.
+    const TURNING: Duty =
+        Duty { name: "", held: 0.0, load: 0.0, loads: 0.0, rise: 0.0, fails: 0.0, speed: 0.0, rope: false, jam: 1 };
+
+    /// Load torque at a time behind the release, in ticks of `period` (s).
+    pub fn load_at(&self, time: f64, period: f64) -> f64 {
+        let risen = ((time - self.loads) / self.rise.max(period)).clamp(0.0, 1.0);
+        self.held + (self.load - self.held) * risen
+    }
+}
+
 /// A machine that a test can run.
 pub trait Tested: Machine {
     const DUTY: Duty;
@@ -84,17 +96,8 @@ impl Machine for Hoist {
 
 impl Tested for Hoist {
     const DRAWN_LOAD: Spread = Spread::between(0.5, 1.08);
-    const DUTY: Duty = Duty {
-        name: "hoist",
-        loads: 0.0,
-        rise: 0.0,
-        fails: 3.5,
-        held: 747.0,
-        load: 747.0,
-        speed: 155.0,
-        rope: true,
-        jam: 2,
-    };
+    const DUTY: Duty =
+        Duty { name: "hoist", held: 747.0, load: 747.0, fails: 3.5, speed: 155.0, rope: true, jam: 2, ..Duty::TURNING };
 }
 
 /// A crane's travelling drive with a swinging load.
@@ -139,17 +142,7 @@ impl Tested for Crane {
         plant
     }
 
-    const DUTY: Duty = Duty {
-        name: "crane",
-        loads: 0.0,
-        rise: 0.5,
-        fails: 4.0,
-        held: 0.0,
-        load: 30.0,
-        speed: 150.0,
-        rope: false,
-        jam: 1,
-    };
+    const DUTY: Duty = Duty { name: "crane", load: 30.0, rise: 0.5, fails: 4.0, speed: 150.0, ..Duty::TURNING };
 }
 
 /// A strip mill's stand.
@@ -183,14 +176,13 @@ impl Machine for Mill {
 impl Tested for Mill {
     const DUTY: Duty = Duty {
         name: "strip mill",
+        load: 1.4e5,
         loads: 3.5,
         rise: 0.05,
         fails: 5.0,
-        held: 0.0,
-        load: 1.4e5,
         speed: 12.0,
-        rope: false,
         jam: 3,
+        ..Duty::TURNING
     };
 }
 
@@ -217,17 +209,8 @@ impl Machine for Spindle {
 }
 
 impl Tested for Spindle {
-    const DUTY: Duty = Duty {
-        name: "spindle",
-        loads: 0.8,
-        rise: 0.003,
-        fails: 1.2,
-        held: 0.0,
-        load: 45.0,
-        speed: 314.0,
-        rope: false,
-        jam: 1,
-    };
+    const DUTY: Duty =
+        Duty { name: "spindle", load: 45.0, loads: 0.8, rise: 0.003, fails: 1.2, speed: 314.0, ..Duty::TURNING };
 }
 
 /// A generator set of 400 kW.
@@ -244,17 +227,8 @@ impl Machine for Set {
 }
 
 impl Tested for Set {
-    const DUTY: Duty = Duty {
-        name: "generator set",
-        loads: 5.0,
-        rise: 0.0,
-        fails: 7.0,
-        held: 0.0,
-        load: 2000.0,
-        speed: 157.08,
-        rope: false,
-        jam: 1,
-    };
+    const DUTY: Duty =
+        Duty { name: "generator set", load: 2000.0, loads: 5.0, fails: 7.0, speed: 157.08, ..Duty::TURNING };
 }
 
 /// A winder of paper: a soft belt between motor and reel, a web that runs on.
@@ -270,15 +244,6 @@ impl Machine for Winder {
 }
 
 impl Tested for Winder {
-    const DUTY: Duty = Duty {
-        name: "winder",
-        loads: 3.0,
-        rise: 0.5,
-        fails: 5.0,
-        held: 0.0,
-        load: 50.0,
-        speed: 120.0,
-        rope: false,
-        jam: 1,
-    };
+    const DUTY: Duty =
+        Duty { name: "winder", load: 50.0, loads: 3.0, rise: 0.5, fails: 5.0, speed: 120.0, ..Duty::TURNING };
 }

@@ -7,18 +7,15 @@ use driveline::fault::Faults;
 use driveline::sample::Sample;
 
 use crate::machines::{Crane, Hoist, Mill, Set, Spindle, Tested, Winder};
-use crate::run::{Draws, Watched};
+use crate::run::{Drawn, Draws, Watched, held, seen};
 
 /// Rms errors of shaft torque, load speed and load torque, over their ratings, of a run up with its load; `share` of the
 /// ticks begin a gap of `burst`.
 fn errors<M: Tested>(config: &ConfigOf<Watched>, share: f64, burst: u32, told: bool) -> [f64; 3] {
     let duty = M::DUTY;
     let period = 1.0 / f64::from(M::RATE_HZ);
-    let resolution = M::ENCODER.resolution().unwrap();
-    let (mut plant, mut draws, mut count) = (M::plant(), Draws(3), TickCount::default());
+    let (mut plant, mut draws, mut count) = (held::<M>(&Drawn::NOMINAL, duty.held), Draws(3), TickCount::default());
     let mut noise = Draws(5);
-    plant.rest(duty.held);
-    (plant.load, plant.rope) = (duty.held, duty.rope);
     let start = plant.angle[0];
     let mut drive = Watched::new(config, 0);
     let (mut torque, mut reported, mut gap, mut gaps, mut flagged) = (0.0, 0.0, 0, 0, 0);
@@ -28,18 +25,14 @@ fn errors<M: Tested>(config: &ConfigOf<Watched>, share: f64, burst: u32, told: b
     for tick in 0..ticks {
         let released = tick >= hold;
         plant.brake = if released { 0.0 } else { 4.0 * M::RATING.torque.0 };
-        let loaded = f64::from(tick) * period - 0.2 - duty.loads;
-        if loaded >= 0.0 {
-            plant.load = duty.held + (duty.load - duty.held) * (loaded / duty.rise.max(period)).min(1.0);
-        }
+        plant.load = duty.load_at(f64::from(tick) * period - 0.2, period);
         if gap == 0 && tick > hold + 1 && draws.unit() < share {
             (gap, gaps) = (burst, gaps + 1);
         }
         if gap > 0 {
             gap -= 1;
         } else {
-            let turned = ((plant.angle[0] - start) / resolution).floor();
-            let angle = (turned * resolution / core::f64::consts::TAU * 4_294_967_296.0).round() as i64 as u32;
+            let angle = seen::<M>(plant.angle[0] - start);
             let missed = count.missed(tick as u16);
             let command = if released {
                 let sample = Sample { angle, torque: reported as f32, setpoint: duty.speed as f32 };

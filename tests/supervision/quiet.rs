@@ -7,7 +7,7 @@ use driveline::fault::Faults;
 use driveline::sample::Sample;
 
 use crate::machines::{Crane, Hoist, Mill, Set, Spindle, Tested, Winder};
-use crate::run::{Drawn, Draws, Watched};
+use crate::run::{Drawn, Draws, Watched, held, seen};
 
 /// What no tolerance names.
 #[derive(Clone, Copy, Debug)]
@@ -41,19 +41,15 @@ impl Outside {
 /// largest torque of the weak shaft until then over the torque limit.
 fn work<M: Tested>(config: &ConfigOf<Watched>, drawn: &Drawn, outside: &Outside, ticks: u32) -> (Faults, u32, f64) {
     let duty = M::DUTY;
-    let (mut plant, mut draws) = (M::plant(), drawn.draws);
-    drawn.apply(&mut plant);
+    let lifted = duty.held > 0.0;
+    let weight = duty.held * drawn.inertia[1];
+    let (mut plant, mut draws) = (held::<M>(drawn, weight), drawn.draws);
     plant.shafts.iter_mut().for_each(|[_, damping]| *damping *= outside.damping);
     let (mut count, mut torque) = (TickCount::default(), 0.0);
     let mut largest = 0.0_f64;
     let period = 1.0 / f64::from(M::RATE_HZ);
     let resolution = M::ENCODER.resolution().unwrap();
     let rated = M::RATING.torque.0;
-    let lifted = duty.held > 0.0;
-    let weight = duty.held * drawn.inertia[1];
-    plant.rope = duty.rope;
-    plant.load = weight;
-    plant.rest(weight);
     let start = plant.angle[0];
     let mut drive = Watched::new(config, 0);
     let (mut setpoint, mut load, mut reported) = (0.0, weight, 0.0);
@@ -76,8 +72,7 @@ fn work<M: Tested>(config: &ConfigOf<Watched>, drawn: &Drawn, outside: &Outside,
         plant.load += (goal - plant.load).clamp(-step, step);
         if hold || draws.unit() >= outside.missed {
             let turned = plant.angle[0] - start + outside.eccentricity * resolution * plant.angle[0].sin();
-            let counts = (turned / resolution).floor();
-            let angle = (counts * resolution / core::f64::consts::TAU * 4_294_967_296.0).round() as i64 as u32;
+            let angle = seen::<M>(turned);
             let missed = count.missed(tick as u16);
             let command = if hold {
                 drive.hold(config, angle, weight as f32)

@@ -8,7 +8,8 @@ use driveline::number::{Fixed, Number};
 use driveline::observer::TwoMassObserver;
 use driveline::sample::Sample;
 
-use crate::machines::{Hoist, Tested};
+use crate::machines::Hoist;
+use crate::run::{Drawn, held, seen};
 
 /// A hoist that lifts, misses ticks and angles, and jams; in the words of its number.
 fn jam<D: Composition + Clone>(config: &ConfigOf<D>, base: [f64; 2]) {
@@ -21,9 +22,7 @@ fn jam<D: Composition + Clone>(config: &ConfigOf<D>, base: [f64; 2]) {
         }
     };
     let [torque_base, speed_base] = base;
-    let mut plant = Hoist::plant();
-    plant.rest(747.0);
-    (plant.load, plant.rope) = (747.0, true);
+    let mut plant = held::<Hoist>(&Drawn::NOMINAL, 747.0);
     let start = plant.angle[0];
     let mut drive = Recorded::<D>::new(config, 0);
     let mut commands = Vec::new();
@@ -38,8 +37,7 @@ fn jam<D: Composition + Clone>(config: &ConfigOf<D>, base: [f64; 2]) {
             // a tick does not run
             plant.advance(reported.to_real() * torque_base, 1e-4);
         }
-        let counts = ((plant.angle[0] - start) / core::f64::consts::TAU * 8192.0).floor();
-        let angle = (counts * 524_288.0) as i64 as u32;
+        let angle = seen::<Hoist>(plant.angle[0] - start);
         let setpoint = number(155.0, speed_base);
         let command = if hold {
             drive.hold(config, angle, number(747.0, torque_base))

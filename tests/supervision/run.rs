@@ -104,9 +104,7 @@ impl Drawn {
             draws: Draws(draws.0 ^ 0x5DEE_CE66),
         }
     }
-}
 
-impl Drawn {
     /// Makes a machine as described this one.
     pub fn apply(&self, plant: &mut Plant) {
         let last = plant.inertia.len() - 1;
@@ -146,6 +144,22 @@ pub struct Outcome {
     pub speed: f64,
 }
 
+/// A drawn machine at rest under a held load.
+pub fn held<M: Tested>(drawn: &Drawn, torque: f64) -> Plant {
+    let mut plant = M::plant();
+    drawn.apply(&mut plant);
+    (plant.rope, plant.load) = (M::DUTY.rope, torque);
+    plant.rest(torque);
+    plant
+}
+
+/// What the encoder of a machine shows where the motor has turned so far (rad), 2^32 to the turn.
+pub fn seen<M: Tested>(turned: f64) -> u32 {
+    let resolution = M::ENCODER.resolution().unwrap();
+    let count = (turned / resolution).floor();
+    (count * resolution / core::f64::consts::TAU * 4_294_967_296.0).round() as i64 as u32
+}
+
 pub fn run<M: Tested>(
     config: &ConfigOf<Watched>,
     drawn: &Drawn,
@@ -154,14 +168,11 @@ pub fn run<M: Tested>(
     after: f64,
 ) -> Outcome {
     let mut duty = M::DUTY;
-    let mut plant = M::plant();
-    drawn.apply(&mut plant);
     // a lifted load is its own weight
     let share = if duty.held > 0.0 { drawn.inertia[1] } else { drawn.load };
     (duty.held, duty.load, duty.fails) = (duty.held * share, duty.load * share, duty.fails + drawn.later);
     let mut draws = drawn.draws;
     let period = 1.0 / f64::from(M::RATE_HZ);
-    let resolution = M::ENCODER.resolution().unwrap();
     let hold = 0.5;
     let lowering = fault == Fault::Land;
     let speed = if lowering { -duty.speed } else { duty.speed };
@@ -175,10 +186,7 @@ pub fn run<M: Tested>(
     let mut outcome = Outcome::default();
     let mut reported = 0.0;
     let mut stopped_at = None;
-    plant.rope = duty.rope;
-    // at rest under the held load
-    plant.load = duty.held;
-    plant.rest(duty.held);
+    let mut plant = held::<M>(drawn, duty.held);
     let start = plant.angle[0];
     plant.brake = 4.0 * rated;
     let (mut slip_torque, mut before) = (0.0, 0.0_f64);
@@ -189,14 +197,10 @@ pub fn run<M: Tested>(
         let gone = time - at;
         let open = hold + if fault == Fault::Late { 0.3 } else { 0.0 };
         plant.brake = if time < open { 4.0 * rated } else { 0.0 };
-        let loaded = time - hold - duty.loads;
-        if loaded >= 0.0 {
-            plant.load = duty.held + (duty.load - duty.held) * (loaded / duty.rise.max(period)).min(1.0);
-        }
+        plant.load = duty.load_at(time - hold, period);
         if failed {
             match fault {
-                Fault::Jam => plant.jammed = Some(duty.jam),
-                Fault::Land => plant.jammed = Some(duty.jam),
+                Fault::Jam | Fault::Land => plant.jammed = Some(duty.jam),
                 Fault::Break => plant.shafts[plant.weak] = [0.0, 0.0],
                 Fault::Slip => {
                     if plant.slipping.is_none() {
@@ -216,9 +220,7 @@ pub fn run<M: Tested>(
             plant.brake += 2.0 * rated;
         }
         let ratio = if let Fault::Ratio(ratio) = fault { ratio } else { 1.0 };
-        let turned = ratio * (plant.angle[0] - start);
-        let count = (turned / resolution).floor();
-        let angle = (count * resolution / core::f64::consts::TAU * 4_294_967_296.0).round() as i64 as u32;
+        let angle = seen::<M>(ratio * (plant.angle[0] - start));
         if let Some(cause) = told
             && gone >= 0.005
             && drive.governor().cause().is_none()
