@@ -200,11 +200,11 @@ fn a_magnetic_encoder_gives_its_fourteen_bits() {
     let mut frames = Frames::default();
     let all = [0, 1, 0x1fff, 0x2000, 0x3fff];
     all.iter().for_each(|&counts| frames.good(counts));
-    let mut encoder = MagneticEncoder::new(frames.expected.bus(), Chip::As5047P);
+    let mut encoder = MagneticEncoder::new(frames.expected, Chip::As5047P);
     for counts in all {
         assert_eq!(encoder.angle(), Ok(u32::from(counts) << 18));
     }
-    encoder.release().done();
+    drop(encoder.release());
 }
 
 #[test]
@@ -214,9 +214,8 @@ fn the_older_chip_has_its_diagnosis_elsewhere() {
     expected.exchange(&[0x7f, 0xfd], &[0, 0]);
     expected.exchange(&ANGLE, &even(SOUND).to_be_bytes());
     expected.exchange(&[0x7f, 0xfd], &even(1234).to_be_bytes());
-    let mut encoder = MagneticEncoder::new(expected.bus(), Chip::As5048A);
+    let mut encoder = MagneticEncoder::new(expected, Chip::As5048A);
     assert_eq!(encoder.angle(), Ok(1234 << 18));
-    encoder.release().done();
 }
 
 #[test]
@@ -228,11 +227,10 @@ fn whatever_is_wrong_there_is_no_angle_and_the_next_one_is_new() {
         frames.good(100);
         frames.wrong(200, wrong);
         frames.good(300);
-        let mut encoder = MagneticEncoder::new(frames.expected.bus(), Chip::As5047P);
+        let mut encoder = MagneticEncoder::new(frames.expected, Chip::As5047P);
         assert_eq!(encoder.angle(), Ok(100 << 18));
         assert_eq!(encoder.angle(), MISSING, "{wrong:?}");
         assert_eq!(encoder.angle(), Ok(300 << 18), "{wrong:?}");
-        encoder.release().done();
     }
 }
 
@@ -244,8 +242,7 @@ fn every_flipped_bit_of_an_answer_is_seen() {
         expected.exchange(&ANGLE, &even(SOUND).to_be_bytes());
         expected.exchange(&DIAGNOSIS, &(even(0x1234) ^ 1 << bit).to_be_bytes());
         expected.exchange(&ERRORS, &[0, 0]);
-        let mut encoder = MagneticEncoder::new(expected.bus(), Chip::As5047P);
+        let mut encoder = MagneticEncoder::new(expected, Chip::As5047P);
         assert_eq!(encoder.angle(), MISSING, "bit {bit}");
-        encoder.release().done();
     }
 }

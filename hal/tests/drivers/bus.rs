@@ -1,90 +1,57 @@
-//! A mocked SPI device that can fail, and the transactions that it expects.
+//! A device on SPI that expects its transactions, and fails where it is told to.
 
-use std::collections::BTreeSet;
+use std::collections::VecDeque;
 
 use embedded_hal::spi::{ErrorKind, ErrorType, Operation, SpiDevice};
 use embedded_hal_mock::eh1::MockError;
-use embedded_hal_mock::eh1::spi::{Mock, Transaction};
 
 /// What a mocked pin or channel fails with.
 pub const FAILED: MockError = MockError::Io(std::io::ErrorKind::NotConnected);
 
-/// A mock has no errors on SPI: this one fails instead of asking it.
-pub struct Bus {
-    mock: Mock<u8>,
-    failing: BTreeSet<usize>,
-    done: usize,
-}
+/// What is sent, and the answer where there is one; none of both where the transaction fails, whatever is sent.
+type Transaction = Option<(Vec<u8>, Option<Vec<u8>>)>;
 
-/// What a bus is to expect, transaction by transaction.
+/// The transactions that are still to come; where it goes out of use, all have.
 #[derive(Default)]
-pub struct Expected {
-    transactions: Vec<Transaction<u8>>,
-    failing: BTreeSet<usize>,
-    count: usize,
-}
+pub struct Expected(VecDeque<Transaction>);
 
 impl Expected {
     pub fn exchange(&mut self, sent: &[u8], answer: &[u8]) {
-        self.one(Transaction::transfer_in_place(sent.to_vec(), answer.to_vec()));
+        self.0.push_back(Some((sent.to_vec(), Some(answer.to_vec()))));
     }
 
     pub fn write(&mut self, sent: &[u8]) {
-        self.one(Transaction::write_vec(sent.to_vec()));
+        self.0.push_back(Some((sent.to_vec(), None)));
     }
 
     /// A transaction that fails, whatever is sent.
     pub fn failure(&mut self) {
-        self.failing.insert(self.count);
-        self.count += 1;
-    }
-
-    pub fn bus(self) -> Bus {
-        Bus { mock: Mock::new(&self.transactions), failing: self.failing, done: 0 }
-    }
-
-    fn one(&mut self, transaction: Transaction<u8>) {
-        self.transactions.extend([Transaction::transaction_start(), transaction, Transaction::transaction_end()]);
-        self.count += 1;
+        self.0.push_back(None);
     }
 }
 
-impl Bus {
-    /// All that was expected has come.
-    pub fn done(self) {}
-}
-
-/// Where it goes out of use, all that was expected has come.
-impl Drop for Bus {
+impl Drop for Expected {
     fn drop(&mut self) {
-        if !std::thread::panicking() {
-            self.mock.done();
-        }
+        assert!(std::thread::panicking() || self.0.is_empty(), "still expected: {:02x?}", self.0);
     }
 }
 
-impl ErrorType for Bus {
+impl ErrorType for Expected {
     type Error = ErrorKind;
 }
 
-impl SpiDevice for Bus {
+impl SpiDevice for Expected {
     fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), ErrorKind> {
-        let number = self.done;
-        self.done += 1;
-        if self.failing.contains(&number) {
-            return Err(ErrorKind::Other);
+        let next = self.0.pop_front().unwrap_or_else(|| panic!("not expected: {operations:02x?}"));
+        let (sent, answer) = next.ok_or(ErrorKind::Other)?;
+        match (operations, answer) {
+            ([Operation::Write(words)], None) => assert_eq!(**words, sent),
+            ([Operation::TransferInPlace(words)], Some(answer)) => {
+                assert_eq!(**words, sent);
+                words.copy_from_slice(&answer);
+            }
+            other => panic!("{other:02x?}"),
         }
-        self.mock.transaction(operations)
-    }
-}
-
-impl embedded_hal_async::spi::SpiDevice for Bus {
-    async fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), ErrorKind> {
-        let number = self.done;
-        self.done += 1;
-        if self.failing.contains(&number) {
-            return Err(ErrorKind::Other);
-        }
-        embedded_hal_async::spi::SpiDevice::transaction(&mut self.mock, operations).await
+        Ok(())
     }
 }

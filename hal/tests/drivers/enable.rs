@@ -1,8 +1,8 @@
 //! The order of the enable chain, and what a line that fails does to the others.
 
-use driveline::axis::{AngleSensor, Board, Enabling, Parts, TorqueOutput};
+use driveline::axis::{Board, Enabling, Parts};
 use driveline::fault::Faults;
-use driveline_hal::{EnableChain, EnableLine, TripLine};
+use driveline_hal::{AwaitedAngle, AwaitedTorque, EnableChain, EnableLine, TripLine};
 use embedded_hal::digital::{ErrorType, OutputPin};
 use embedded_hal_mock::eh1::MockError;
 use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction};
@@ -106,7 +106,8 @@ fn two_lines_of_a_board_go_on_in_order_and_off_in_reverse() {
     };
     let contactor = line(&[set(ON), set(OFF), set(ON), set(OFF)], "contactor");
     let brake = line(&[set(ON), set(OFF), set(ON).with_error(FAILED), set(OFF), set(OFF)], "brake");
-    let mut board = Parts { angle: NoAngle, torque: NoTorque, enable: (contactor, brake) };
+    let mut board =
+        Parts { angle: AwaitedAngle::new(), torque: AwaitedTorque::<f32>::new(), enable: (contactor, brake) };
     assert_eq!(board.set_enabled(true), Ok(()));
     assert_eq!(board.set_enabled(false), Ok(()));
     assert_eq!(*order.borrow(), ["contactor", "brake", "brake", "contactor"]);
@@ -118,21 +119,5 @@ fn two_lines_of_a_board_go_on_in_order_and_off_in_reverse() {
     for chain in [contactor, brake] {
         let [line] = chain.release();
         line.release().0.done();
-    }
-}
-
-/// A board without a motor.
-struct NoAngle;
-struct NoTorque;
-
-impl AngleSensor for NoAngle {
-    fn angle(&mut self) -> Result<u32, Faults> {
-        Err(Faults::ANGLE_MISSING)
-    }
-}
-
-impl TorqueOutput<f32> for NoTorque {
-    fn set_torque(&mut self, _: f32, _: u32) -> Result<(), Faults> {
-        Err(Faults::TORQUE_OUTPUT)
     }
 }

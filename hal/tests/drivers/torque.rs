@@ -6,7 +6,7 @@ use driveline::configure::Machine as _;
 use driveline::fault::Faults;
 use driveline::number::Fixed;
 use driveline::settings::Bases;
-use driveline_hal::{Dac, FullScale, PhaseConfig, PwmTorque, SpiDac, ThreePhase, Tmc4671};
+use driveline_hal::{Dac, FullScale, PhaseConfig, PwmTorque, Scaled, SpiDac, ThreePhase, Tmc4671};
 use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Duty};
 
 use super::bus::{Expected, FAILED};
@@ -17,28 +17,27 @@ const FULL: FullScale<f32> = FullScale::<f32>::new(10.0);
 const DUTIES: [(f32, u16); 7] =
     [(0.0, 500), (5.0, 750), (-5.0, 250), (10.0, 1000), (-10.0, 0), (50.0, 1000), (f32::NEG_INFINITY, 0)];
 
-#[test]
-fn a_torque_is_a_duty() {
+/// The duties of torques in a number.
+fn duties_are_set<N: Scaled>(full: FullScale<N>, all: &[(f32, u16)], number: impl Fn(f32) -> N)
+where
+    PwmTorque<Pwm, N>: TorqueOutput<N>,
+{
     let expected: Vec<_> =
-        DUTIES.iter().flat_map(|&(_, duty)| [Duty::max_duty_cycle(1000), Duty::set_duty_cycle(duty)]).collect();
-    let mut output = PwmTorque::new(Pwm::new(&expected), FULL);
-    for (torque, _) in DUTIES {
-        assert_eq!(output.set_torque(torque, 0), Ok(()));
+        all.iter().flat_map(|&(_, duty)| [Duty::max_duty_cycle(1000), Duty::set_duty_cycle(duty)]).collect();
+    let mut output = PwmTorque::new(Pwm::new(&expected), full);
+    for &(torque, _) in all {
+        assert_eq!(output.set_torque(number(torque), 0), Ok(()));
     }
     output.release().done();
 }
 
 #[test]
-fn fixed_point_gives_the_same_duty() {
+fn a_torque_is_a_duty() {
+    duties_are_set(FULL, &DUTIES, |torque| torque);
+    // fixed point has no infinite torque
     const BASES_OF_TEN: Bases = Bases { torque: 40.0, ..Hoist::<10_000>::BASES };
-    let full = FullScale::<Fixed>::new(10.0, BASES_OF_TEN);
-    let expected: Vec<_> =
-        DUTIES[..6].iter().flat_map(|&(_, duty)| [Duty::max_duty_cycle(1000), Duty::set_duty_cycle(duty)]).collect();
-    let mut output = PwmTorque::new(Pwm::new(&expected), full);
-    for (torque, _) in &DUTIES[..6] {
-        assert_eq!(output.set_torque(Fixed::from_f64(f64::from(*torque) / BASES_OF_TEN.torque), 0), Ok(()));
-    }
-    output.release().done();
+    let fixed = |torque: f32| Fixed::from_f64(f64::from(torque) / BASES_OF_TEN.torque);
+    duties_are_set(FullScale::<Fixed>::new(10.0, BASES_OF_TEN), &DUTIES[..6], fixed);
 }
 
 #[test]
@@ -131,20 +130,19 @@ fn a_torque_is_a_code_of_either_dac() {
     expected.write(&[0, 0x80, 0x00]);
     expected.write(&[0, 0xff, 0xff]);
     expected.write(&[0, 0x40, 0x00]);
-    let mut dac = SpiDac::new(expected.bus(), Dac::Ad5662, FULL);
+    let mut dac = SpiDac::new(expected, Dac::Ad5662, FULL);
     for torque in [0.0, 10.0, -5.0] {
         assert_eq!(dac.set_torque(torque, 0), Ok(()));
     }
-    dac.release().done();
+    drop(dac.release());
     let mut expected = Expected::default();
     // channel A, not buffered, gain 1, active; then twelve bits
     expected.write(&[0x38, 0x00]);
     expected.write(&[0x3f, 0xff]);
-    let mut dac = SpiDac::new(expected.bus(), Dac::Mcp4921, FULL);
+    let mut dac = SpiDac::new(expected, Dac::Mcp4921, FULL);
     for torque in [0.0, 10.0] {
         assert_eq!(dac.set_torque(torque, 0), Ok(()));
     }
-    dac.release().done();
 }
 
 #[test]
@@ -152,9 +150,8 @@ fn a_dac_that_is_not_reached_is_a_fault_and_the_middle_is_asked_for() {
     let mut expected = Expected::default();
     expected.failure();
     expected.write(&[0, 0x80, 0x00]);
-    let mut dac = SpiDac::new(expected.bus(), Dac::Ad5662, FULL);
+    let mut dac = SpiDac::new(expected, Dac::Ad5662, FULL);
     assert_eq!(dac.set_torque(5.0, 0), Err(Faults::TORQUE_OUTPUT));
-    dac.release().done();
 }
 
 #[test]
@@ -172,9 +169,9 @@ fn a_target_is_written_and_read_back() {
     expected.failure();
     expected.write(&[0xe4, 0, 0, 0, 0]);
     expected.exchange(&[0x64, 0, 0, 0, 0], &[0xff, 0, 0, 0, 0]);
-    let mut drive = Tmc4671::new(expected.bus(), FULL);
+    let mut drive = Tmc4671::new(expected, FULL);
     assert_eq!(drive.set_torque(5.0, 0), Ok(()));
     assert_eq!(drive.set_torque(-5.0, 0), Err(Faults::TORQUE_OUTPUT));
     assert_eq!(drive.set_torque(-5.0, 0), Err(Faults::TORQUE_OUTPUT));
-    drive.release().done();
+    drop(drive.release());
 }

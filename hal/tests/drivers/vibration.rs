@@ -9,7 +9,7 @@ use driveline::number::Fixed;
 use driveline::settings::PhasorSettings;
 use driveline_hal::{AdcVibration, Adxl355, Along, PerCount, Range};
 
-use super::bus::{Bus, Expected};
+use super::bus::Expected;
 use super::scripted;
 
 pub const MISSING: Result<Option<f32>, Faults> = Err(Faults::VIBRATION_MISSING);
@@ -36,8 +36,8 @@ pub fn burst(expected: &mut Expected, status: u8, z: i32) {
     expected.exchange(&sent, &[0, status, 0, 7, 0x67, 1, 2, 3, 4, 5, 6, z2, z1, z0]);
 }
 
-pub fn sensor(expected: Expected) -> Adxl355<Bus, f32> {
-    Adxl355::start(expected.bus(), Along::Z, Range::G2, PER_COUNT, 3).map_err(|(faults, _)| faults).unwrap()
+pub fn sensor(expected: Expected) -> Adxl355<Expected, f32> {
+    Adxl355::start(expected, Along::Z, Range::G2, PER_COUNT, 3).map_err(|(faults, _)| faults).unwrap()
 }
 
 #[test]
@@ -52,7 +52,7 @@ fn a_sample_is_an_acceleration_once() {
     assert!((sensor.vibration().unwrap().unwrap() - 9.806_65).abs() < 1e-6);
     assert_eq!(sensor.vibration(), Ok(None));
     assert!((sensor.vibration().unwrap().unwrap() + 0.5 * 9.806_65).abs() < 1e-6);
-    sensor.release().done();
+    drop(sensor.release());
 }
 
 /// Each range has its own word and its own counts to a g [ADXL355 datasheet, tables 1 and 43].
@@ -63,11 +63,9 @@ fn every_range_is_set_at_the_chip() {
         started_at(&mut expected, word);
         burst(&mut expected, 1, of_a_g);
         let per_count = PerCount::<f32>::new(range.per_count());
-        let mut sensor =
-            Adxl355::start(expected.bus(), Along::Z, range, per_count, 3).map_err(|(faults, _)| faults).unwrap();
+        let mut sensor = Adxl355::start(expected, Along::Z, range, per_count, 3).map_err(|(faults, _)| faults).unwrap();
         // a g, to the digits of an f32
         assert!((sensor.vibration().unwrap().unwrap() - 9.806_65).abs() < 1e-6, "{range:?}");
-        sensor.release().done();
     }
 }
 
@@ -77,12 +75,10 @@ fn fixed_point_is_per_unit() {
     started(&mut expected);
     burst(&mut expected, 1, 128_000);
     let per_count = PerCount::<Fixed>::new(Range::G2.per_count(), 4.0 * 9.806_65);
-    let mut sensor =
-        Adxl355::start(expected.bus(), Along::Z, Range::G2, per_count, 3).map_err(|(faults, _)| faults).unwrap();
+    let mut sensor = Adxl355::start(expected, Along::Z, Range::G2, per_count, 3).map_err(|(faults, _)| faults).unwrap();
     let sample = sensor.vibration().unwrap().unwrap();
     // half a g of four; the factor has 24 places
     assert!((sample.to_f64() - 0.125).abs() < 0.125 * 1e-7, "{sample:?}");
-    sensor.release().done();
 }
 
 #[test]
@@ -103,7 +99,6 @@ fn every_fault_is_no_sample() {
         assert_eq!(sensor.vibration(), expected);
     }
     assert!(sensor.vibration().unwrap().is_some());
-    sensor.release().done();
 }
 
 #[test]
@@ -117,7 +112,6 @@ fn a_sample_that_stays_away_is_a_fault_after_the_patience() {
         assert_eq!(sensor.vibration(), if poll < 3 { Ok(None) } else { MISSING });
     }
     assert!(sensor.vibration().unwrap().is_some());
-    sensor.release().done();
 }
 
 #[test]
@@ -125,10 +119,10 @@ fn another_chip_or_none_does_not_start() {
     for answer in [[0, 0xe5, 0, 0], [0xff; 4], [0; 4]] {
         let mut expected = Expected::default();
         expected.exchange(&[0x01, 0, 0, 0], &answer);
-        let started = Adxl355::start(expected.bus(), Along::X, Range::G2, PER_COUNT, 3);
+        let started = Adxl355::start(expected, Along::X, Range::G2, PER_COUNT, 3);
         let (faults, bus) = started.err().unwrap();
         assert_eq!(faults, Faults::VIBRATION_MISSING);
-        bus.done();
+        drop(bus);
     }
 }
 
