@@ -12,13 +12,15 @@ use driveline::drive::{Composition, Config, ConfigOf, Drive, Limits};
 use driveline::fault::Faults;
 use driveline::governor::{
     ActiveDamping, ActiveDampingConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Slew, SlewConfig,
-    SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, SymmetricLimit, SymmetricLimitConfig,
+    SpeedGovernor, SpeedLoop, SpeedLoopConfig, SymmetricLimit, SymmetricLimitConfig,
 };
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::{Fixed, Number};
 use driveline::observer::{SemiImplicitConfig, SemiImplicitObserver, TwoMassConfig, TwoMassObserver};
 use driveline::sample::{Command, Sample};
 use driveline::settings::{Bases, Screening, SpeedLoopSettings};
+
+use super::governor::plain;
 
 /// SplitMix64 [Steele, Lea and Flood 2014].
 struct Random(u64);
@@ -268,9 +270,9 @@ macro_rules! drives {
                     SpeedLoopConfig::<N>::try_new(design, settings, bases).ok()
                 }),
                 1 => held!(Composed::<N, $observer>, designs.speed_loops, |design: &SpeedLoopDesign| {
-                    Some(SpeedGovernorConfig {
-                        gains: Gains::<N>::try_of_speed_loop(design, settings, bases).ok()?,
-                        shape: DroopConfig::<N>::try_new(
+                    Some(plain(
+                        Gains::<N>::try_of_speed_loop(design, settings, bases).ok()?,
+                        DroopConfig::<N>::try_new(
                             drawn.droop,
                             drawn.speed,
                             drawn.torque_limit,
@@ -278,25 +280,15 @@ macro_rules! drives {
                             bases,
                         )
                         .ok()?,
-                        compensation: (
+                        (
                             FeedForwardConfig::<N>::try_new(drawn.forward.share, bases).ok()?,
                             ActiveDampingConfig::<N>::try_new(design, bases).ok()?,
                         ),
-                        limit: slew,
-                        sequence: (),
-                        filter: (),
-                    })
+                        slew,
+                    ))
                 }),
                 _ => held!(Slewed::<N, $observer>, designs.governors?, |design| {
-                    let gains = Gains::<N>::try_new(design, settings, bases).ok()?;
-                    Some(SpeedGovernorConfig {
-                        gains,
-                        shape: (),
-                        compensation: (),
-                        limit: slew,
-                        sequence: (),
-                        filter: (),
-                    })
+                    Some(plain(Gains::<N>::try_new(design, settings, bases).ok()?, (), (), slew))
                 }),
             })
         })()

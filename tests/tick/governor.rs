@@ -9,13 +9,23 @@ use driveline::governor::{
     SequencerConfig, SetpointShape, Slew, SlewConfig, SpeedFilter, SpeedGovernor, SpeedGovernorConfig, SpeedLoop,
     SpeedLoopConfig, SpeedRange, SymmetricLimit, SymmetricLimitConfig, TransportDelay, TransportDelayConfig, Trip,
 };
-use driveline::number::{Coefficient, Fixed, StateOf, Weight};
+use driveline::number::{Coefficient, Fixed, Number, StateOf, Weight};
 use driveline::sample::Estimate;
 
 const GAINS: Gains<f64> = Gains { proportional: 1.0, reset: 0.0, ramp: 10.0 };
 
 fn at(speed: f64) -> Estimate<f64> {
     Estimate { motor_speed: speed, shaft_torque: 0.0, load_speed: speed, load_torque: 0.0 }
+}
+
+/// A governor without a run sequence and without a filter of the speed.
+pub fn plain<N: Number, S, F, L>(
+    gains: Gains<N>,
+    shape: S,
+    compensation: F,
+    limit: L,
+) -> SpeedGovernorConfig<N, S, F, L, (), ()> {
+    SpeedGovernorConfig { gains, shape, compensation, limit, sequence: (), filter: () }
 }
 
 /// An integral within the limit leaves the next command as soon as an error asks for less.
@@ -64,14 +74,9 @@ fn the_speed_loop_is_the_law_on_paper() {
 #[test]
 fn a_start_with_droop_and_feed_forward_is_bumpless() {
     type Drooped = StateOf<SpeedGovernor<Droop, FeedForward>, f64>;
-    let config = SpeedGovernorConfig {
-        gains: Gains { ramp: 0.0, ..GAINS },
-        shape: DroopConfig { droop: 0.25 },
-        compensation: FeedForwardConfig { share: 0.5 },
-        limit: SymmetricLimitConfig { torque: 100.0 },
-        sequence: (),
-        filter: (),
-    };
+    let limit = SymmetricLimitConfig { torque: 100.0 };
+    let config =
+        plain(Gains { ramp: 0.0, ..GAINS }, DroopConfig { droop: 0.25 }, FeedForwardConfig { share: 0.5 }, limit);
     let loaded = Estimate { load_torque: 8.0, ..at(50.0) };
     let mut governor = Drooped::default();
     governor.start(&config, &loaded, 20.0);
@@ -87,7 +92,7 @@ type Slewed = StateOf<SpeedGovernor<(), (), Slew<SymmetricLimit>>, f64>;
 #[test]
 fn the_slew_starts_from_the_torque_that_there_is() {
     let limit = SlewConfig { step: 2.0, limit: SymmetricLimitConfig { torque: 100.0 } };
-    let config = SpeedGovernorConfig { gains: GAINS, shape: (), compensation: (), limit, sequence: (), filter: () };
+    let config = plain(GAINS, (), (), limit);
     let mut governor = Slewed::default();
     governor.start(&config, &at(0.0), 30.0);
     // with the machine 20 rad/s too fast the loop wants 10 N m; the slew allows 28, 26 ...
@@ -197,7 +202,7 @@ fn braking_goes_to_standstill_and_forgets_no_setpoint() {
 #[test]
 fn with_a_lost_angle_the_setpoint_is_zero_until_there_is_another() {
     let limit = SymmetricLimitConfig { torque: 100.0 };
-    let config = SpeedGovernorConfig { gains: GAINS, shape: (), compensation: (), limit, sequence: (), filter: () };
+    let config = plain(GAINS, (), (), limit);
     let mut governor = <StateOf<SpeedGovernor, f64>>::default();
     governor.start(&config, &at(50.0), 0.0);
     governor.set_setpoint(100.0);
@@ -271,14 +276,7 @@ fn a_moving_average_takes_a_step_in_its_ticks() {
 #[test]
 fn a_shaper_hands_on_the_steady_speed_and_a_trip() {
     type Inner = StateOf<SpeedGovernor<(), (), SymmetricLimit, Sequencer, CycleAverage>, f64>;
-    let governor = SpeedGovernorConfig {
-        gains: GAINS,
-        shape: (),
-        compensation: (),
-        limit: SymmetricLimitConfig { torque: 100.0 },
-        sequence: SEQUENCE,
-        filter: (),
-    };
+    let governor = SpeedGovernorConfig { filter: (), ..SEQUENCED };
     let config = InputShaperConfig { ramp: 1.0, slot: 10, share: 0.5, governor };
     let mut shaper = InputShaper::<Inner, 2, 3, f64>::default();
     assert_eq!(shaper.permitted(&config, &at(100.0), -101.0), -100.0);
@@ -459,4 +457,6 @@ fn a_part_that_is_left_out_has_no_state() {
     ] {
         assert_eq!(bytes, PLAIN + state, "{part}");
     }
+    // gains, ramp and limit
+    assert_eq!(size_of::<<SpeedGovernor as Governor<f32>>::Config>(), 3 * 4 + 4);
 }

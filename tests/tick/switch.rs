@@ -3,12 +3,14 @@
 use driveline::drive::{Config, Drive, Limits};
 use driveline::governor::{
     ActiveDamping, ActiveDampingConfig, CycleAverage, DampingLag, Droop, DroopConfig, FeedForward, FeedForwardConfig,
-    Gains, Governor, LagConfig, SetpointLag, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig,
-    SymmetricLimit, SymmetricLimitConfig,
+    Gains, Governor, LagConfig, SetpointLag, SpeedGovernor, SpeedLoop, SpeedLoopConfig, SymmetricLimit,
+    SymmetricLimitConfig,
 };
 use driveline::number::{Coefficient, Fixed, Number, StateOf};
 use driveline::observer::{GearFriction, GearedConfig, GearedObserver, Observer, TwoMassConfig, TwoMassObserver};
 use driveline::sample::{Estimate, Sample};
+
+use super::governor::plain;
 
 /// Shares and stiffness that a switch changes; the compliance is one over the stiffness.
 fn two_mass(share: [f64; 2], stiffness: f64) -> TwoMassConfig<f64> {
@@ -99,13 +101,10 @@ fn a_switch_of_a_drive_is_bumpless() {
 #[test]
 fn a_switch_of_gain_droop_and_feed_forward_is_bumpless() {
     type Drooped = StateOf<SpeedGovernor<(Droop, ()), (FeedForward, ()), SymmetricLimit, (), CycleAverage>, f64>;
-    let config = |proportional, droop, share| SpeedGovernorConfig {
-        gains: Gains { proportional, reset: 0.0, ramp: 0.0 },
-        shape: (DroopConfig { droop }, ()),
-        compensation: (FeedForwardConfig { share }, ()),
-        limit: SymmetricLimitConfig { torque: 100.0 },
-        sequence: (),
-        filter: (),
+    let config = |proportional, droop, share| {
+        let gains = Gains { proportional, reset: 0.0, ramp: 0.0 };
+        let limit = SymmetricLimitConfig { torque: 100.0 };
+        plain(gains, (DroopConfig { droop }, ()), (FeedForwardConfig { share }, ()), limit)
     };
     let (from, to) = (config(2.0, 0.25, 0.5), config(4.0, 0.5, 0.25));
     let at = |speed| Estimate { motor_speed: speed, shaft_torque: 0.0, load_speed: speed, load_torque: 8.0 };
@@ -129,16 +128,11 @@ fn switched<N: Number>(
     [torque, load_torque, error, from, to]: [f64; 5],
 ) -> [f64; 16] {
     type Composed<N> = StateOf<SpeedGovernor<(), (FeedForward, ActiveDamping)>, N>;
-    let [from, to] = [from, to].map(|gain| SpeedGovernorConfig {
-        gains: Gains { proportional: factor(gain / scale[0]), reset: factor(0.25), ramp: number(1.0) },
-        shape: (),
-        compensation: (
-            FeedForwardConfig { share: factor(1.0 / scale[1]) },
-            ActiveDampingConfig { damping: factor(-1.0 / scale[0]) },
-        ),
-        limit: SymmetricLimitConfig { torque: number(1.0) },
-        sequence: (),
-        filter: (),
+    let [from, to] = [from, to].map(|gain| {
+        let gains = Gains { proportional: factor(gain / scale[0]), reset: factor(0.25), ramp: number(1.0) };
+        let forward = FeedForwardConfig { share: factor(1.0 / scale[1]) };
+        let damping = ActiveDampingConfig { damping: factor(-1.0 / scale[0]) };
+        plain(gains, (), (forward, damping), SymmetricLimitConfig { torque: number(1.0) })
     });
     let at = |speed: f64| Estimate {
         motor_speed: number(speed),

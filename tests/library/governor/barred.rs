@@ -1,14 +1,14 @@
 //! Barred speeds: where they lie, and that no setpoint stays in one.
 
 use driveline::design::{Actuator, BarredSpeeds, Error, LoadFeedForward, Rate, USUAL_MARGIN};
-use driveline::governor::{
-    Barred, BarredConfig, Gains, Governor, SpeedGovernor, SpeedGovernorConfig, SymmetricLimitConfig,
-};
+use driveline::governor::{Barred, BarredConfig, Gains, Governor, SpeedGovernor, SymmetricLimitConfig};
 use driveline::machine::{Chain, Cylinder, Damping, Inertia, Length, Stiffness};
 use driveline::number::StateOf;
 use driveline::sample::Estimate;
 use driveline::settings::{Bases, SpeedLoopSettings};
 use proptest::prelude::*;
+
+use super::plain;
 
 const PERIOD: f64 = 1e-3;
 
@@ -112,14 +112,12 @@ fn a_range_is_passed_quickly_and_never_stayed_in() {
         3.0,
         LoadFeedForward::NONE,
     );
-    let config = SpeedGovernorConfig {
-        gains: Gains::<f64>::new(&design, SpeedLoopSettings { torque_limit: 100.0, ramp: 10.0 }, Bases::SI),
-        shape: BarredConfig::<f64, 2>::new(&barred, 40.0, PERIOD, Bases::SI),
-        compensation: (),
-        limit: SymmetricLimitConfig::<f64>::new(100.0, Bases::SI),
-        sequence: (),
-        filter: (),
-    };
+    let config = plain(
+        Gains::<f64>::new(&design, SpeedLoopSettings { torque_limit: 100.0, ramp: 10.0 }, Bases::SI),
+        BarredConfig::<f64, 2>::new(&barred, 40.0, PERIOD, Bases::SI),
+        (),
+        SymmetricLimitConfig::<f64>::new(100.0, Bases::SI),
+    );
     let mut governor = <StateOf<SpeedGovernor<Barred<2>>, f64>>::default();
     let inside = |speed: f64| barred.ranges().iter().any(|r| speed > r[0] + 1e-9 && speed < r[1] - 1e-9);
     let mut go = |setpoint: f64, ticks: usize| {

@@ -7,33 +7,32 @@ use driveline::design::{Actuator, Error, GovernorDesign, LoadFeedForward, Rate, 
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline_solver::plant::{Chain, Shaft, Start};
 
+use super::SET;
+
 const PERIOD: f64 = 5e-4;
 
-fn machine() -> TwoMass {
-    TwoMass::new(Inertia(4.4), Inertia(8.0), Stiffness(5.0e4), Damping(66.0))
-}
-
 fn design(optimum_factor: f64, actuator: Actuator) -> GovernorDesign {
-    machine().governor(Rate::every(PERIOD), actuator, optimum_factor, LoadFeedForward::NONE)
+    SET.governor(Rate::every(PERIOD), actuator, optimum_factor, LoadFeedForward::NONE)
 }
 
 /// Whether the closed loop with both gains scaled by `gain` settles after a small disturbance: the swing of the last of
 /// `seconds` is less than that of the one after the first two.
 fn settles(design: &GovernorDesign, actuator: Actuator, gain: f64, seconds: usize) -> bool {
     let gains = [gain * design.proportional, gain * design.integral];
-    settles_on(5.0e4, 66.0, gains, actuator, seconds)
+    chain_settles(chain(5.0e4, 66.0), gains, 0.0, actuator, seconds)
 }
 
-fn settles_on(stiffness: f64, damping: f64, gains: [f64; 2], actuator: Actuator, seconds: usize) -> bool {
-    chain_settles(Chain::motor(4.4).shaft(Shaft::elastic(stiffness).damping(damping), 8.0), gains, actuator, seconds)
+fn chain(stiffness: f64, damping: f64) -> Chain {
+    Chain::motor(4.4).shaft(Shaft::elastic(stiffness).damping(damping), 8.0)
 }
 
-pub(super) fn chain_settles(chain: Chain, gains: [f64; 2], actuator: Actuator, seconds: usize) -> bool {
+/// With a share of what accelerates the machine, which without load is the torque, taken off as well.
+pub(super) fn chain_settles(chain: Chain, gains: [f64; 2], share: f64, actuator: Actuator, seconds: usize) -> bool {
     let start = Start::Given { twists: vec![0.0], speeds: vec![1.0, 1.0] };
     let mut plant = chain.start(start).build().unwrap();
     // The torque commanded on a sample acts in the tick after it.
     let mut queue: VecDeque<f64> = vec![0.0; (actuator.delay / PERIOD).round() as usize + 1].into();
-    let (mut integral, mut acting) = (0.0, 0.0);
+    let (mut integral, mut acting, mut mean) = (0.0, 0.0, 0.0);
     let keep = if actuator.lag > 0.0 { (-PERIOD / actuator.lag).exp() } else { 0.0 };
     let second = (1.0 / PERIOD) as usize;
     let mut swings = vec![0.0_f64; seconds];
@@ -41,11 +40,11 @@ pub(super) fn chain_settles(chain: Chain, gains: [f64; 2], actuator: Actuator, s
         let speed = plant.motor_speed();
         swings[tick / second] = swings[tick / second].max(speed.abs());
         integral -= gains[1] * PERIOD * speed;
-        queue.push_back(integral - gains[0] * speed);
+        queue.push_back(integral - gains[0] * speed - share * mean);
         // The lag's mean over the tick.
         let command = queue.pop_front().unwrap();
         let next = command + (acting - command) * keep;
-        let mean = if actuator.lag > 0.0 { command + (acting - next) * actuator.lag / PERIOD } else { command };
+        mean = if actuator.lag > 0.0 { command + (acting - next) * actuator.lag / PERIOD } else { command };
         acting = next;
         plant.advance(mean, PERIOD);
     }
@@ -58,15 +57,15 @@ pub(super) fn chain_settles(chain: Chain, gains: [f64; 2], actuator: Actuator, s
 fn gains_are_the_symmetrical_optimum() {
     for optimum_factor in [2.0_f64, 2.5, 3.0, 4.0] {
         let actuator = Actuator { delay: 0.0, lag: 0.05 };
-        let design = machine().governor(Rate::every(1e-5), actuator, optimum_factor, LoadFeedForward::NONE);
+        let design = SET.governor(Rate::every(1e-5), actuator, optimum_factor, LoadFeedForward::NONE);
         let equivalent_delay = 0.05 + 1.5e-5;
         assert!((design.equivalent_delay / equivalent_delay - 1.0).abs() < 1e-12);
         let crossover = 1.0 / (optimum_factor * equivalent_delay);
         let margin = optimum_factor.atan() - (1.0 / optimum_factor).atan();
         // The shaft is not rigid: at 20 rad/s and below its 79 rad/s antiresonance raises the gain by up to 4 %, which
         // moves the flat top of the phase by less than 1 degree.
-        assert!((design.margins(&machine()).crossover / crossover - 1.0).abs() < 0.05, "{design:?}");
-        assert!((design.margins(&machine()).phase - margin).abs().to_degrees() < 1.0, "{design:?}");
+        assert!((design.margins(&SET).crossover / crossover - 1.0).abs() < 0.05, "{design:?}");
+        assert!((design.margins(&SET).phase - margin).abs().to_degrees() < 1.0, "{design:?}");
     }
 }
 
@@ -81,14 +80,8 @@ fn gain_margins_are_where_the_loop_turns_unstable() {
             assert!(settles(&design, actuator, 1.0, 8), "{actuator:?} {design:?}");
             // 3 %: the lag is taken as continuous between samples, which at these crossovers (below 100 rad/s) is off
             // by (w T)^2/12 < 0.1 %, and a growth slower than 20 s would not show in 8 s.
-            assert!(
-                settles(&design, actuator, 0.97 * design.margins(&machine()).gain_up, 8),
-                "{actuator:?} {design:?}"
-            );
-            assert!(
-                !settles(&design, actuator, 1.03 * design.margins(&machine()).gain_up, 8),
-                "{actuator:?} {design:?}"
-            );
+            assert!(settles(&design, actuator, 0.97 * design.margins(&SET).gain_up, 8), "{actuator:?} {design:?}");
+            assert!(!settles(&design, actuator, 1.03 * design.margins(&SET).gain_up, 8), "{actuator:?} {design:?}");
         }
     }
 }
@@ -98,7 +91,7 @@ fn gain_margins_are_where_the_loop_turns_unstable() {
 fn phase_margins_are_the_delay_that_turns_the_loop_unstable() {
     let actuator = Actuator { delay: 0.0165, lag: 0.02 };
     let design = design(2.5, actuator);
-    let room = design.margins(&machine()).phase / design.margins(&machine()).crossover;
+    let room = design.margins(&SET).phase / design.margins(&SET).crossover;
     let later = |share: f64| Actuator { delay: actuator.delay + share * room, ..actuator };
     // The delay is rounded to ticks of 0.5 ms, of a room of 70 ms.
     assert!(settles(&design, later(0.97), 1.0, 16), "{design:?}");
@@ -110,16 +103,13 @@ fn phase_margins_are_the_delay_that_turns_the_loop_unstable() {
 #[test]
 fn feed_forward_costs_margin_and_no_stability() {
     let actuator = Actuator { delay: 0.0165, lag: 0.02 };
-    let with = |share| machine().governor(Rate::every(PERIOD), actuator, 3.0, LoadFeedForward { share, lag: 0.023 });
+    let with = |share| SET.governor(Rate::every(PERIOD), actuator, 3.0, LoadFeedForward { share, lag: 0.023 });
     let plain = design(3.0, actuator);
-    assert_eq!(with(0.0).margins(&machine()), plain.margins(&machine()));
+    assert_eq!(with(0.0).margins(&SET), plain.margins(&SET));
     let full = with(1.0);
     assert_eq!((full.proportional, full.integral), (plain.proportional, plain.integral));
     // [Åström and Hägglund 2006, Advanced PID Control, §4.6]: a modulus margin of 0.5 to 0.7 is sound.
-    assert!(
-        full.margins(&machine()).modulus < plain.margins(&machine()).modulus && full.margins(&machine()).modulus > 0.5,
-        "{full:?}"
-    );
+    assert!(full.margins(&SET).modulus < plain.margins(&SET).modulus && full.margins(&SET).modulus > 0.5, "{full:?}");
 }
 
 /// With a virtual inertia the loop is stable just below its gain margin and unstable just above; and it is quicker by
@@ -136,26 +126,8 @@ fn a_virtual_inertia_quickens_the_loop() {
         assert!((design.acceleration - share * 12.4 / 8.0).abs() < 1e-12);
         assert!(design.margins(&machine).modulus > plain.margins(&machine).modulus, "{design:?} {plain:?}");
         let settled = |gain: f64| {
-            let start = Start::Given { twists: vec![0.0], speeds: vec![1.0, 1.0] };
-            let chain = Chain::motor(4.4).shaft(Shaft::elastic(5.0e6).damping(6.6e3), 8.0).start(start);
-            let mut plant = chain.build().unwrap();
-            let mut queue: VecDeque<f64> = vec![0.0; (actuator.delay / PERIOD).round() as usize + 1].into();
-            let (mut integral, mut acting, mut mean) = (0.0, 0.0, 0.0);
-            let keep = (-PERIOD / actuator.lag).exp();
-            let mut swings = [0.0_f64; 8];
-            for tick in 0..16_000 {
-                let speed = plant.motor_speed();
-                swings[tick / 2000] = swings[tick / 2000].max(speed.abs());
-                integral -= design.integral * PERIOD * speed;
-                // Without load, what accelerates the machine is the torque.
-                queue.push_back(gain * (integral - design.proportional * speed - share * mean));
-                let command = queue.pop_front().unwrap();
-                let next = command + (acting - command) * keep;
-                mean = command + (acting - next) * actuator.lag / PERIOD;
-                acting = next;
-                plant.advance(mean, PERIOD);
-            }
-            swings[7] < swings[2]
+            let gains = [gain * design.proportional, gain * design.integral];
+            chain_settles(chain(5.0e6, 6.6e3), gains, gain * share, actuator, 8)
         };
         // 3 %, as above.
         assert!(settled(1.0) && settled(0.97 * design.margins(&machine).gain_up), "{design:?}");
@@ -172,9 +144,8 @@ fn a_virtual_inertia_quickens_the_loop() {
 fn what_cannot_work_is_refused_with_a_sentence() {
     let (rate, none) = (Rate::every(PERIOD), LoadFeedForward::NONE);
     let late = Actuator { delay: 0.02, lag: 0.02 };
-    let refused = |actuator, optimum_factor, forward| {
-        machine().try_governor(rate, actuator, optimum_factor, forward).unwrap_err()
-    };
+    let refused =
+        |actuator, optimum_factor, forward| SET.try_governor(rate, actuator, optimum_factor, forward).unwrap_err();
     assert_eq!(refused(Actuator { delay: -1.0, lag: 0.0 }, 2.0, none), Error::Actuator);
     assert_eq!(refused(Actuator { delay: 0.0, lag: f64::NAN }, 2.0, none), Error::Actuator);
     assert_eq!(refused(late, 1.0, none), Error::OptimumFactor);
@@ -210,7 +181,7 @@ fn nyquist_agrees_with_the_closed_loop() {
             let equivalent_delay = 0.04 + 1.5 * PERIOD;
             let proportional = 12.4 / (optimum_factor * equivalent_delay);
             let gains = [proportional, proportional / (optimum_factor * optimum_factor * equivalent_delay)];
-            let settled = settles_on(stiffness, 10.0, gains, actuator, 10);
+            let settled = chain_settles(chain(stiffness, 10.0), gains, 0.0, actuator, 10);
             assert_eq!(design.is_ok(), settled, "{stiffness} {optimum_factor}: {design:?}");
             found[usize::from(settled)] += 1;
         }

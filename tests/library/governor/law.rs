@@ -1,24 +1,24 @@
-//! The governor's law in all its numbers, and the limits.
+//! The governor's law in all its numbers, the limits, and changes of its constants.
 
 use driveline::design::{Actuator, GovernorDesign, LoadFeedForward, Rate, TorqueCurve};
 use driveline::governor::{
     ActiveDamping, ActiveDampingConfig, Curve, CurveConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains,
-    Governor, Limit, Slew, SlewConfig, SpeedGovernor, SpeedGovernorConfig, SymmetricLimit, SymmetricLimitConfig,
-    TorqueRange, TorqueRangeConfig,
+    Governor, Limit, Slew, SlewConfig, SpeedGovernor, SymmetricLimit, SymmetricLimitConfig, TorqueRange,
+    TorqueRangeConfig,
 };
-use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::{Fixed, Number, StateOf};
 use driveline::sample::Estimate;
 use driveline::settings::{Bases, SpeedLoopSettings};
 use proptest::prelude::*;
 
-const MACHINE: TwoMass = TwoMass::new(Inertia(4.4), Inertia(8.0), Stiffness(5.0e4), Damping(66.0));
+use super::{SET, plain};
+
 const TORQUE: f64 = 2500.0;
 const SPEED: f64 = 157.0;
-const BASES: Bases = Bases::new(&MACHINE, 2.5 * TORQUE, 1.34 * SPEED);
+const BASES: Bases = Bases::new(&SET, 2.5 * TORQUE, 1.34 * SPEED);
 const PERIOD: f64 = 5e-4;
 const DESIGN: GovernorDesign =
-    MACHINE.governor(Rate::every(PERIOD), Actuator { delay: 0.02, lag: 0.02 }, 2.5, LoadFeedForward::NONE);
+    SET.governor(Rate::every(PERIOD), Actuator { delay: 0.02, lag: 0.02 }, 2.5, LoadFeedForward::NONE);
 const RAMP: f64 = 40.0;
 const SETTINGS: SpeedLoopSettings = SpeedLoopSettings { torque_limit: TORQUE, ramp: RAMP };
 /// With a ramp of one tick.
@@ -54,26 +54,15 @@ impl Law {
     }
 }
 
-fn single() -> <Whole<f32> as Governor<f32>>::Config {
-    SpeedGovernorConfig {
-        gains: Gains::<f32>::new(&DESIGN, SETTINGS, Bases::SI),
-        shape: DroopConfig::<f32>::new(0.04, SPEED, TORQUE, DESIGN.integral * PERIOD, Bases::SI),
-        compensation: FeedForwardConfig::<f32>::new(0.9, Bases::SI),
-        limit: CurveConfig::<f32, 3>::new(&CURVE, -100.0, Bases::SI),
-        sequence: (),
-        filter: (),
-    }
-}
-
-fn fixed() -> <Whole<Fixed> as Governor<Fixed>>::Config {
-    SpeedGovernorConfig {
-        gains: Gains::<Fixed>::new(&DESIGN, SETTINGS, BASES),
-        shape: DroopConfig::<Fixed>::new(0.04, SPEED, TORQUE, DESIGN.integral * PERIOD, BASES),
-        compensation: FeedForwardConfig::<Fixed>::new(0.9, BASES),
-        limit: CurveConfig::<Fixed, 3>::new(&CURVE, -100.0, BASES),
-        sequence: (),
-        filter: (),
-    }
+macro_rules! constants {
+    ($number:ident, $bases:expr) => {
+        plain(
+            Gains::<$number>::new(&DESIGN, SETTINGS, $bases),
+            DroopConfig::<$number>::new(0.04, SPEED, TORQUE, DESIGN.integral * PERIOD, $bases),
+            FeedForwardConfig::<$number>::new(0.9, $bases),
+            CurveConfig::<$number, 3>::new(&CURVE, -100.0, $bases),
+        )
+    };
 }
 
 proptest! {
@@ -85,7 +74,7 @@ proptest! {
     ) {
         let mut law = Law::default();
         let (mut by_single, mut by_fixed) = (Whole::<f32>::default(), Whole::<Fixed>::default());
-        let (single, fixed) = (single(), fixed());
+        let (single, fixed) = (constants!(f32, Bases::SI), constants!(Fixed, BASES));
         for (speed, load, setpoint) in samples {
             let wanted = law.command(setpoint, speed, load);
             by_single.set_setpoint(setpoint as f32);
@@ -108,7 +97,7 @@ proptest! {
     /// In fixed point, whatever the bits of the estimates: within the limits, no wrap.
     #[test]
     fn no_bits_leave_the_limits(words in prop::collection::vec(any::<[i32; 4]>(), 1..100)) {
-        let config = fixed();
+        let config = constants!(Fixed, BASES);
         let mut governor = Whole::<Fixed>::default();
         let least = Fixed::from_f64(-100.0 / BASES.torque);
         let most = Fixed::from_f64(TORQUE / BASES.torque);
@@ -132,14 +121,7 @@ proptest! {
 #[test]
 fn the_integral_does_not_wind_up_behind_any_limit() {
     fn leaves<L: Limit<f64>>(limit: L::Config) -> f64 {
-        let config = SpeedGovernorConfig {
-            gains: Gains::<f64>::new(&DESIGN, STEP, Bases::SI),
-            shape: (),
-            compensation: (),
-            limit,
-            sequence: (),
-            filter: (),
-        };
+        let config = plain(Gains::<f64>::new(&DESIGN, STEP, Bases::SI), (), (), limit);
         let mut governor = SpeedGovernor::<(), (), L, (), (), f64>::default();
         governor.set_setpoint(SPEED);
         for _ in 0..20_000 {
@@ -168,14 +150,7 @@ fn the_integral_does_not_wind_up_behind_any_limit() {
 #[test]
 fn slew_and_limit_hold_in_every_tick() {
     let slew = SlewConfig::<f64, _>::new(1e5, TorqueRangeConfig::<f64>::new(0.0, TORQUE, Bases::SI), PERIOD, Bases::SI);
-    let config = SpeedGovernorConfig {
-        gains: Gains::<f64>::new(&DESIGN, STEP, Bases::SI),
-        shape: (),
-        compensation: (),
-        limit: slew,
-        sequence: (),
-        filter: (),
-    };
+    let config = plain(Gains::<f64>::new(&DESIGN, STEP, Bases::SI), (), (), slew);
     let mut governor = <StateOf<SpeedGovernor<(), (), Slew<TorqueRange>>, f64>>::default();
     let mut last = 0.0;
     for tick in 0..5000 {
@@ -192,15 +167,13 @@ fn slew_and_limit_hold_in_every_tick() {
 fn with_damping_and_nothing_else_it_is_the_speed_loop() {
     use driveline::design::SpeedLoopTuning;
     use driveline::governor::{SpeedLoop, SpeedLoopConfig};
-    let design = MACHINE.speed_loop(Rate::hz(2000), SpeedLoopTuning::USUAL);
-    let config = SpeedGovernorConfig {
-        gains: Gains::<f32>::of_speed_loop(&design, SETTINGS, Bases::SI),
-        shape: (),
-        compensation: ActiveDampingConfig::<f32>::new(&design, Bases::SI),
-        limit: SymmetricLimitConfig::<f32>::new(TORQUE, Bases::SI),
-        sequence: (),
-        filter: (),
-    };
+    let design = SET.speed_loop(Rate::hz(2000), SpeedLoopTuning::USUAL);
+    let config = plain(
+        Gains::<f32>::of_speed_loop(&design, SETTINGS, Bases::SI),
+        (),
+        ActiveDampingConfig::<f32>::new(&design, Bases::SI),
+        SymmetricLimitConfig::<f32>::new(TORQUE, Bases::SI),
+    );
     let loop_config = SpeedLoopConfig::<f32>::new(&design, SETTINGS, Bases::SI);
     let mut governor = <StateOf<SpeedGovernor<(), ActiveDamping>, f32>>::default();
     let mut speed_loop = SpeedLoop::<(), _>::default();
@@ -235,12 +208,48 @@ fn a_power_limit_is_kept() {
     }
 }
 
-/// What is left out takes no room: integral, setpoint and reference, and of the modes a mode, a mark and two counters.
-#[test]
-fn what_is_left_out_takes_no_room() {
-    use driveline::governor::Sequencer;
-    assert_eq!(size_of::<SpeedGovernor>(), 12);
-    assert_eq!(size_of::<SpeedGovernor<Droop, (FeedForward, ActiveDamping), Curve<4>>>(), 12);
-    assert!(size_of::<SpeedGovernor<(), (), SymmetricLimit, Sequencer>>() <= 12 + 12);
-    assert_eq!(size_of::<<SpeedGovernor as Governor<f32>>::Config>(), 3 * 4 + 4);
+type Switched = StateOf<SpeedGovernor<Droop, FeedForward>, f64>;
+
+fn config(span: f64, droop: f64, share: f64) -> <Switched as Governor<f64>>::Config {
+    let actuator = Actuator { delay: 0.02, lag: 0.02 };
+    let design = SET.governor(Rate::hz(2000), actuator, span, LoadFeedForward::NONE);
+    plain(
+        Gains::<f64>::new(&design, SpeedLoopSettings { torque_limit: 3000.0, ramp: 40.0 }, Bases::SI),
+        DroopConfig::<f64>::new(droop, 157.0, 2500.0, design.integral * design.period, Bases::SI),
+        FeedForwardConfig::<f64>::new(share, Bases::SI),
+        SymmetricLimitConfig::<f64>::new(3000.0, Bases::SI),
+    )
+}
+
+proptest! {
+    /// Whatever the state and whichever of gains, droop and feed-forward change, the next torque is what it would have
+    /// been, but for what one tick's ramp and integral make of it.
+    #[test]
+    fn the_constants_change_without_a_jolt(
+        (span, droop, share) in (2.0..5.0_f64, 0.0..0.08_f64, 0.0..1.0_f64),
+        (to_span, to_droop, to_share) in (2.0..5.0_f64, 0.0..0.08_f64, 0.0..1.0_f64),
+        load in 0.0..2000.0_f64,
+        error in -2.0..2.0_f64,
+        ticks in 1..2000_usize,
+    ) {
+        let (from, to) = (config(span, droop, share), config(to_span, to_droop, to_share));
+        let mut governor = Switched::default();
+        let now = Estimate { motor_speed: 150.0, load_torque: load, ..Estimate::default() };
+        governor.start(&from, &now, load);
+        let now = Estimate { motor_speed: 150.0 + error, ..now };
+        let mut last = 0.0;
+        for _ in 0..ticks {
+            governor.set_setpoint(150.0);
+            last = governor.command(&from, &now);
+        }
+        let mut other = governor;
+        governor.set_setpoint(150.0);
+        let stayed = governor.command(&from, &now);
+        other.switch(&from, &to, &now);
+        other.set_setpoint(150.0);
+        let switched = other.command(&to, &now);
+        // A tick's ramp is 0.02 rad/s, of which the integral's tick and the droop's make less than another: 2 * 0.04
+        // rad/s by the largest k_p, 150, and at the limit the torque must not move at all.
+        prop_assert!((switched - stayed).abs() < 2.0 * 0.04 * 150.0, "{last} {stayed} {switched}");
+    }
 }

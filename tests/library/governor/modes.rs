@@ -5,13 +5,13 @@ use driveline::governor::{
     Gains, Governor, HasRunSequence, RunRequest, RunState, Sequencer, SequencerConfig, SpeedGovernor,
     SpeedGovernorConfig, SymmetricLimit, SymmetricLimitConfig, Trip,
 };
-use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::StateOf;
 use driveline::sample::Estimate;
 use driveline::settings::{Bases, SequencerSettings, SpeedLoopSettings};
 use proptest::prelude::*;
 
-const MACHINE: TwoMass = TwoMass::new(Inertia(4.4), Inertia(8.0), Stiffness(5.0e4), Damping(66.0));
+use super::SET;
+
 const PERIOD: f64 = 1e-2;
 const LIMITS: SequencerSettings = SequencerSettings {
     overspeed: 110.0,
@@ -28,7 +28,7 @@ type Supervised = StateOf<SpeedGovernor<(), (), SymmetricLimit, Sequencer>, f64>
 
 fn config() -> <Supervised as Governor<f64>>::Config {
     let actuator = Actuator { delay: 0.02, lag: 0.02 };
-    let design = MACHINE.governor(Rate::every(PERIOD), actuator, 3.0, LoadFeedForward::NONE);
+    let design = SET.governor(Rate::every(PERIOD), actuator, 3.0, LoadFeedForward::NONE);
     SpeedGovernorConfig {
         gains: Gains::<f64>::new(&design, SpeedLoopSettings { torque_limit: 400.0, ramp: 20.0 }, Bases::SI),
         shape: (),

@@ -1,14 +1,14 @@
 //! Sets that turn together share the load by their droop.
 
 use driveline::design::{Actuator, GovernorDesign, LoadFeedForward, Rate};
-use driveline::governor::{
-    Droop, DroopConfig, Gains, Governor, SpeedGovernor, SpeedGovernorConfig, TorqueRange, TorqueRangeConfig,
-};
+use driveline::governor::{Droop, DroopConfig, Gains, Governor, SpeedGovernor, TorqueRange, TorqueRangeConfig};
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::StateOf;
 use driveline::sample::Estimate;
 use driveline::settings::{Bases, SpeedLoopSettings};
 use driveline_solver::plant::{Chain, Shaft, Start};
+
+use super::plain;
 
 const PERIOD: f64 = 1e-3;
 const SPEED: f64 = 157.0;
@@ -21,13 +21,14 @@ fn settled(rated: [f64; 2], droop: [f64; 2], load: f64) -> (f64, [f64; 2]) {
         let machine = TwoMass::new(Inertia(0.4 * inertia), Inertia(0.6 * inertia), Stiffness(1e5), Damping(50.0));
         machine.governor(Rate::every(PERIOD), Actuator { delay: 0.0, lag: 0.05 }, 3.0, LoadFeedForward::NONE)
     });
-    let config = [0, 1].map(|k: usize| SpeedGovernorConfig {
-        gains: Gains::<f64>::new(&design[k], SpeedLoopSettings { torque_limit: 1.1 * rated[k], ramp: 40.0 }, Bases::SI),
-        shape: DroopConfig::<f64>::new(droop[k], SPEED, rated[k], design[k].integral * PERIOD, Bases::SI),
-        compensation: (),
-        limit: TorqueRangeConfig::<f64>::new(0.0, 1.1 * rated[k], Bases::SI),
-        sequence: (),
-        filter: (),
+    let config = [0, 1].map(|k: usize| {
+        let settings = SpeedLoopSettings { torque_limit: 1.1 * rated[k], ramp: 40.0 };
+        plain(
+            Gains::<f64>::new(&design[k], settings, Bases::SI),
+            DroopConfig::<f64>::new(droop[k], SPEED, rated[k], design[k].integral * PERIOD, Bases::SI),
+            (),
+            TorqueRangeConfig::<f64>::new(0.0, 1.1 * rated[k], Bases::SI),
+        )
     });
     let reduced = inertia[0] * inertia[1] / (inertia[0] + inertia[1]);
     let stiffness = reduced * (2.0 * core::f64::consts::TAU).powi(2);

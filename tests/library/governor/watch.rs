@@ -2,16 +2,16 @@
 
 use driveline::fault::Faults;
 use driveline::governor::{ActuatorMonitor, ActuatorMonitorConfig, Trip};
-use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::{Fixed, Number};
 use driveline::settings::{ActuatorMonitorSettings, Bases};
+
+use super::SET;
 
 const PERIOD: f64 = 1.0 / 2400.0;
 const LAGS: [f64; 2] = [0.1, 0.25];
 const SETTINGS: ActuatorMonitorSettings =
     ActuatorMonitorSettings { tolerance: 200.0, max_torque: 1500.0, timeout: 0.01 };
-const MACHINE: TwoMass = TwoMass::new(Inertia(4.4), Inertia(8.0), Stiffness(5.0e4), Damping(66.0));
-const BASES: Bases = Bases::new(&MACHINE, 2500.0, 210.0);
+const BASES: Bases = Bases::new(&SET, 2500.0, 210.0);
 
 fn single() -> ActuatorMonitorConfig<f32, 2> {
     ActuatorMonitorConfig::<f32, 2>::new(&LAGS, &SETTINGS, PERIOD, Bases::SI)
