@@ -12,7 +12,6 @@ pub mod noise;
 mod phasor;
 mod polygon;
 mod procedure;
-mod rigid;
 mod tolerance;
 
 use std::f64::consts::{PI, TAU};

@@ -1,7 +1,6 @@
 //! Designs against closed forms and high-precision arithmetic.
 
 mod approximate;
-mod kalman;
 mod matrix;
 mod nodes;
 mod observer;

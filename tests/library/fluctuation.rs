@@ -9,7 +9,6 @@ mod flywheel;
 mod gear_mesh;
 mod motion;
 mod numerics;
-mod press;
 mod rig;
 mod toothed_wheel;
 mod waveform;

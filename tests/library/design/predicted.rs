@@ -96,6 +96,13 @@ fn rms(values: &[[f64; 3]], truth: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
     squares.map(|square| (square / (values.len() - half) as f64).sqrt())
 }
 
+#[track_caller]
+fn near(found: [f64; 3], expected: EstimateError, tolerance: f64) {
+    for (found, expected) in found.into_iter().zip([expected.shaft_torque, expected.load_speed, expected.load_torque]) {
+        close(found, expected, tolerance);
+    }
+}
+
 /// An eccentric encoder on a motor that turns steadily: the response of the observer that runs. A word of the angle is
 /// 1.5e-9 rad, a millionth of the amplitude; the shaft's damping leaves nothing of the start.
 #[test]
@@ -109,9 +116,7 @@ fn a_periodic_error_passes_as_predicted() {
         };
         // whole turns in the second half: 157 ticks a turn
         let found = rms(&estimates(two, 40_000, angle, 40.0), |_| [0.0, 40.0, 0.0]);
-        for (found, expected) in found.into_iter().zip([errors.shaft_torque, errors.load_speed, errors.load_torque]) {
-            close(found, expected, 0.01);
-        }
+        near(found, errors, 0.01);
     });
 }
 
@@ -124,9 +129,7 @@ fn noise_passes_as_predicted() {
         let mut noise = Noise::new(5);
         let ticks = estimates(two, 800_000, |k| (40.0 * PERIOD * k as f64, 2.0 * noise.normal()), 40.0);
         let found = rms(&ticks, |_| [0.0, 40.0, 0.0]);
-        for (found, expected) in found.into_iter().zip([errors.shaft_torque, errors.load_speed, errors.load_torque]) {
-            close(found, expected, 0.05);
-        }
+        near(found, errors, 0.05);
     });
 }
 
@@ -164,9 +167,7 @@ fn a_swing_of_another_machine_passes_as_predicted() {
         let share = other.motor_inertia / other.total_inertia();
         let decays = 2.0 * zeta * w * OPERATION.cycle.every;
         let own = OPERATION.cycle.change * share * (0.5 * -(-decays).exp_m1() / decays).sqrt();
-        for (found, expected) in found.into_iter().zip([errors.shaft_torque, errors.load_speed, errors.load_torque]) {
-            close(found / size * own, expected, 0.02);
-        }
+        near(found.map(|found| found / size * own), errors, 0.02);
     });
 }
 
