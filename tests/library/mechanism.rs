@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 use driveline::design::{Disturbance, Encoder, Error, MechanismDesign, Rate, RigidDesign};
 use driveline::machine::{CrankSlider, DrivenMechanism, Inertia, Length, Mass, Mechanism, Rigid};
 use driveline::number::{Fixed, Number};
-use driveline::observer::{self, MechanismConfig, Observer, RigidConfig};
+use driveline::observer::{MechanismConfig, MechanismObserver, Observer, RigidConfig, RigidObserver};
 use driveline::settings::Bases;
 use driveline_solver::plant::train::Crank;
 
@@ -75,7 +75,8 @@ impl Press {
 /// Root mean square errors of load torque and shaft torque (N m) and of speed (rad/s) over a second in which the motor
 /// holds 100 rad/s against an arc of load on each turn of the crank; the first half, in which the estimate settles, is
 /// left out.
-fn errors<N: Number, O: Observer<N>>(config: &O::Config, torque_base: f64, speed_base: f64) -> [f64; 3] {
+fn errors<N: Number, O: Observer<N>>(config: &O::Config, bases: Bases) -> [f64; 3] {
+    let Bases { torque: torque_base, speed: speed_base, .. } = bases;
     let mut press = Press::new(100.0);
     let number = |value: f64| {
         N::from_word(if N::ONE.to_word() == 1.0_f32.to_bits() {
@@ -108,13 +109,9 @@ fn errors<N: Number, O: Observer<N>>(config: &O::Config, torque_base: f64, speed
 
 #[test]
 fn the_crank_is_not_taken_for_load() {
-    let cranked =
-        errors::<f32, observer::MechanismObserver<f32>>(&MechanismConfig::<f32>::new(&DESIGN, Bases::SI), 1.0, 1.0);
-    let rigid = errors::<f32, observer::RigidObserver<f32>>(
-        &RigidConfig::<f32>::new(&MEAN, 1.0 - 0.5 / PRESS.mean_inertia(), Bases::SI),
-        1.0,
-        1.0,
-    );
+    let cranked = errors::<f32, MechanismObserver<f32>>(&MechanismConfig::<f32>::new(&DESIGN, Bases::SI), Bases::SI);
+    let share = 1.0 - 0.5 / PRESS.mean_inertia();
+    let rigid = errors::<f32, RigidObserver<f32>>(&RigidConfig::<f32>::new(&MEAN, share, Bases::SI), Bases::SI);
     println!("cranked {cranked:?}, rigid {rigid:?}");
     // Of the same gains, one knows the crank. What is left is the arc of load, which neither can foresee.
     assert!(cranked[0] < 0.1 * rigid[0] && cranked[1] < rigid[1], "{cranked:?} {rigid:?}");
@@ -124,15 +121,9 @@ fn the_crank_is_not_taken_for_load() {
 
 #[test]
 fn numbers_agree() {
-    let double =
-        errors::<f64, observer::MechanismObserver<f64>>(&MechanismConfig::<f64>::new(&DESIGN, Bases::SI), 1.0, 1.0);
-    let single =
-        errors::<f32, observer::MechanismObserver<f32>>(&MechanismConfig::<f32>::new(&DESIGN, Bases::SI), 1.0, 1.0);
-    let fixed = errors::<Fixed, observer::MechanismObserver<Fixed>>(
-        &MechanismConfig::<Fixed>::new(&DESIGN, BASES),
-        1_200.0,
-        200.0,
-    );
+    let double = errors::<f64, MechanismObserver<f64>>(&MechanismConfig::<f64>::new(&DESIGN, Bases::SI), Bases::SI);
+    let single = errors::<f32, MechanismObserver<f32>>(&MechanismConfig::<f32>::new(&DESIGN, Bases::SI), Bases::SI);
+    let fixed = errors::<Fixed, MechanismObserver<Fixed>>(&MechanismConfig::<Fixed>::new(&DESIGN, BASES), BASES);
     println!("{double:?} {single:?} {fixed:?}");
     for k in 0..3 {
         // The encoder's noise is in all of them alike; resolution adds less than a hundredth to it.
@@ -144,7 +135,7 @@ fn numbers_agree() {
 #[test]
 fn the_crank_stays_known_through_a_brake_and_a_restart() {
     let config = MechanismConfig::<f64>::new(&DESIGN, Bases::SI);
-    let mut observer = observer::MechanismObserver::<f64>::at_rest(&config, 0, 0.0);
+    let mut observer = MechanismObserver::<f64>::at_rest(&config, 0, 0.0);
     observer.home(&config, 1 << 30);
     // Three turns of the motor in steps of a twentieth, against a closed brake that slips.
     for step in 1..=60_u64 {

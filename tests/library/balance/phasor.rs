@@ -287,28 +287,22 @@ fn a_sample_at_the_end_of_the_range_is_clipped() {
 #[test]
 fn the_floor_of_a_machine_is_the_same_in_every_number() {
     const SCATTER: f32 = 0.1;
-    struct Above;
-    struct Below;
-    macro_rules! machine {
-        ($name:ident, $floor:literal) => {
-            impl Machine for $name {
-                const CHAIN: Chain = Chain::motor(Inertia(0.5)).shaft(Stiffness(5e3), Damping(4.0)).rotor(Inertia(2.0));
-                const RATING: Rating =
-                    Rating { torque: Torque(286.0), speed: Speed(77.0), torque_limit: Torque(572.0) };
-                const ENCODER: Encoder = Encoder::counts(4096);
-                const RATE_HZ: u32 = 10_000;
-            }
-            impl HasVibration for $name {
-                const PHASORS: PhasorSettings = PhasorSettings {
-                    steadiness: Steadiness { scatter: SCATTER, floor: $floor, ..Steadiness::USUAL },
-                    ..PhasorSettings::DIRECT
-                };
-                const VIBRATION_LIMIT: f64 = 20.0;
-            }
-        };
+    struct Floored<const HUNDREDTHS: u32>;
+    type Above = Floored<100>;
+    type Below = Floored<5>;
+    impl<const HUNDREDTHS: u32> Machine for Floored<HUNDREDTHS> {
+        const CHAIN: Chain = Chain::motor(Inertia(0.5)).shaft(Stiffness(5e3), Damping(4.0)).rotor(Inertia(2.0));
+        const RATING: Rating = Rating { torque: Torque(286.0), speed: Speed(77.0), torque_limit: Torque(572.0) };
+        const ENCODER: Encoder = Encoder::counts(4096);
+        const RATE_HZ: u32 = 10_000;
     }
-    machine!(Above, 1.0);
-    machine!(Below, 0.05);
+    impl<const HUNDREDTHS: u32> HasVibration for Floored<HUNDREDTHS> {
+        const PHASORS: PhasorSettings = PhasorSettings {
+            steadiness: Steadiness { scatter: SCATTER, floor: HUNDREDTHS as f32 / 100.0, ..Steadiness::USUAL },
+            ..PhasorSettings::DIRECT
+        };
+        const VIBRATION_LIMIT: f64 = 20.0;
+    }
     type One = Phasors<1, 9>;
     // a block of 400 samples has noise of 1.6 sqrt(2/400) sqrt(2) = 0.16, the mean of eight 0.057: 28 % of 0.2, 6 % of
     // the floor of 1
@@ -316,27 +310,11 @@ fn the_floor_of_a_machine_is_the_same_in_every_number() {
     for seed in 0..10 {
         let rig = || Rig { noise: Noise::new(2000 + seed), ..Rig::new(50.0) };
         let base = Above::VIBRATION_BASE;
-        let both = [
-            [
-                run::<f32, 9>(&<One as Configure<Above, f32>>::CONFIG, &mut rig(), |v| v as f32, signal),
-                run::<f32, 9>(&<One as Configure<Below, f32>>::CONFIG, &mut rig(), |v| v as f32, signal),
-            ],
-            [
-                run::<Fixed, 9>(
-                    &<One as Configure<Above, Fixed>>::CONFIG,
-                    &mut rig(),
-                    |v| Fixed::from_f64(v / base),
-                    signal,
-                ),
-                run::<Fixed, 9>(
-                    &<One as Configure<Below, Fixed>>::CONFIG,
-                    &mut rig(),
-                    |v| Fixed::from_f64(v / base),
-                    signal,
-                ),
-            ],
-        ];
-        for [above, below] in both {
+        let single = [<One as Configure<Above, f32>>::CONFIG, <One as Configure<Below, f32>>::CONFIG]
+            .map(|config| run::<f32, 9>(&config, &mut rig(), |v| v as f32, signal));
+        let fixed = [<One as Configure<Above, Fixed>>::CONFIG, <One as Configure<Below, Fixed>>::CONFIG]
+            .map(|config| run::<Fixed, 9>(&config, &mut rig(), |v| Fixed::from_f64(v / base), signal));
+        for [above, below] in [single, fixed] {
             assert!(above.is_ok(), "{seed}: {above:?}");
             assert!(matches!(below, Err(ReadingFault::Scattered { .. })), "{seed}: {below:?}");
         }

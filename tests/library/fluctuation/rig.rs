@@ -52,45 +52,29 @@ pub trait Built: Ranked + Summed {
     fn of_torque(torque: f64) -> Self;
 }
 
-macro_rules! float {
-    ($float:ident) => {
-        impl Built for $float {
-            const NAME: &'static str = stringify!($float);
+macro_rules! built {
+    ($number:ident, $name:literal, $bases:expr, $of_torque:expr) => {
+        impl Built for $number {
+            const NAME: &'static str = $name;
             fn constants(cycle: Cycle, cycles: u32) -> Constants<Self> {
-                let cycle = CycleConfig::new(cycle, PERIOD, Bases::SI);
+                let cycle = CycleConfig::new(cycle, PERIOD, $bases);
                 Config {
-                    limits: Limits::<$float>::new(&SCREENING, Bases::SI),
-                    observer: TwoMassConfig::<$float>::new(&DESIGN, Bases::SI),
+                    limits: Limits::<$number>::new(&SCREENING, $bases),
+                    observer: TwoMassConfig::<$number>::new(&DESIGN, $bases),
                     fluctuation: (cycle, WaveformConfig::new::<BINS>(cycle, cycles)),
                     governor: (),
                     balancer: (),
                 }
             }
             fn of_torque(torque: f64) -> Self {
-                torque as $float
+                $of_torque(torque)
             }
         }
     };
 }
-float!(f32);
-float!(f64);
-
-impl Built for Fixed {
-    const NAME: &'static str = "fixed";
-    fn constants(cycle: Cycle, cycles: u32) -> Constants<Self> {
-        let cycle = CycleConfig::new(cycle, PERIOD, BASES);
-        Config {
-            limits: Limits::<Fixed>::new(&SCREENING, BASES),
-            observer: TwoMassConfig::<Fixed>::new(&DESIGN, BASES),
-            fluctuation: (cycle, WaveformConfig::new::<BINS>(cycle, cycles)),
-            governor: (),
-            balancer: (),
-        }
-    }
-    fn of_torque(torque: f64) -> Self {
-        Fixed::from_f64(torque / BASES.torque)
-    }
-}
+built!(f32, "f32", Bases::SI, |torque| torque as f32);
+built!(f64, "f64", Bases::SI, |torque| torque);
+built!(Fixed, "fixed", BASES, |torque| Fixed::from_f64(torque / BASES.torque));
 
 /// Runs a drive along a motion, at least until `done`, and gives it back; no tick may be faulty after the first 0.3 s,
 /// in which the observer is caught.

@@ -1,10 +1,9 @@
 //! Nothing depends on the absolute angle: a shift of all angles gives the same bits, whatever wraps on the way.
 
-use super::rig::RATED_SPEED;
-use crate::hoist::Variant;
 use driveline::drive::Drive;
 
-use super::rig::{DriveOf, Rig, Scaled, Seen, for_every_variant};
+use super::rig::{DriveOf, RATED_SPEED, Rig, Scaled, Seen, for_every_variant};
+use crate::hoist::Variant;
 
 /// A run from rest, recorded, is played to drives that were switched on at other angles. One of the bases is where a
 /// year at rated speed ends: 155 rad/s for 31,557,600 s are 778 million turns and a fraction, and the fraction is all

@@ -1,8 +1,7 @@
 //! Arbitrary bits in every word of the sample, for thousands of ticks: no panic (these tests run with overflow checks),
 //! no NaN, no infinity, no torque beyond the limit; and when the garbage stops, the estimates are right again.
 
-use crate::hoist::Variant;
-use crate::hoist::{CutAtRope, Exact, Hoist, Of, Reduced, Rigid};
+use crate::hoist::{CutAtRope, Exact, Hoist, Of, Reduced, Rigid, Variant};
 use driveline::drive::{Config, Drive, Limits};
 use driveline::fault::Faults;
 use driveline::governor::{SpeedLoop, SpeedLoopConfig};
@@ -10,10 +9,9 @@ use driveline::number::{Fixed, Part, StateOf};
 use driveline::observer::{GearedObserver, Observer, Stiction};
 use driveline::sample::Sample;
 
-use super::rig::RATED_SPEED;
 use proptest::prelude::*;
 
-use super::rig::{Scaled, Seen, check};
+use super::rig::{RATED_SPEED, Scaled, Seen, check};
 
 /// Time in which the estimates are right again (s): the angle is lost after 20 ms and caught by two angles that differ;
 /// what the restart leaves fades with a time constant of at most 89 ms, of which ten fit.
@@ -122,14 +120,8 @@ where
     let Config { limits, observer, governor, .. } = V::CONFIG;
     let geared = driveline::observer::GearedConfig { ..*observer };
     plays::<V::Number, GearedObserver<O>>(V::NAME, V::RATE_HZ, *limits, geared, *governor, garbage);
-    plays::<V::Number, O>(
-        &format!("{} without gear", V::NAME),
-        V::RATE_HZ,
-        *limits,
-        observer.observer,
-        *governor,
-        garbage,
-    );
+    let name = format!("{} without gear", V::NAME);
+    plays::<V::Number, O>(&name, V::RATE_HZ, *limits, observer.observer, *governor, garbage);
 }
 
 proptest! {

@@ -8,9 +8,7 @@ use driveline::number::{Fixed, Number};
 use driveline::observer::{Observer, SemiImplicitConfig, SemiImplicitObserver, TwoMassConfig, TwoMassObserver};
 use driveline::settings::Bases;
 
-use super::rig::{BASES, REDUCED};
-
-use super::rig::Scaled;
+use super::rig::{BASES, REDUCED, Scaled};
 
 /// Torque of each tick (N m): as much above the load's as below it, so that the shaft swings and no speed meets the
 /// rails of fixed point.

@@ -3,8 +3,7 @@
 use core::f64::consts::TAU;
 
 pub use crate::hoist::DriveOf;
-use crate::hoist::Hoist;
-use crate::hoist::Variant;
+use crate::hoist::{Hoist, Variant};
 use driveline::configure::Machine as _;
 use driveline::drive::Drive;
 use driveline::fault::Faults;

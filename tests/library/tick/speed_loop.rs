@@ -1,7 +1,5 @@
 //! The speed loop: its limits, its anti-windup, and its bumpless transfer.
 
-use super::rig::{BASES, RATED_SPEED, REDUCED, TORQUE_LIMIT};
-use crate::hoist::Variant;
 use driveline::design::{Rate, SpeedLoopDesign, SpeedLoopTuning};
 use driveline::fault::Faults;
 use driveline::governor::{Governor, SpeedLoop, SpeedLoopConfig};
@@ -10,7 +8,8 @@ use driveline::sample::Estimate;
 use driveline::settings::{Bases, SpeedLoopSettings};
 use proptest::prelude::*;
 
-use super::rig::{DriveOf, Rig, Scaled, WEIGHT, for_every_variant};
+use super::rig::{BASES, DriveOf, RATED_SPEED, REDUCED, Rig, Scaled, TORQUE_LIMIT, WEIGHT, for_every_variant};
+use crate::hoist::Variant;
 
 fn design() -> SpeedLoopDesign {
     REDUCED.speed_loop(Rate::hz(10_000), SpeedLoopTuning::USUAL)

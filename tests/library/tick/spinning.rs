@@ -1,13 +1,12 @@
 //! A drive that is switched on to a machine that spins, or whose machine has changed its speed unseen, catches it at
 //! every rate.
 
-use super::rig::RATED_SPEED;
-use crate::hoist::Variant;
 use driveline::fault::Faults;
 use driveline::number::Number;
 use driveline::sample::Sample;
 
-use super::rig::{DriveOf, Scaled, Seen, check, for_every_variant};
+use super::rig::{DriveOf, RATED_SPEED, Scaled, Seen, check, for_every_variant};
+use crate::hoist::Variant;
 
 /// A machine that turns steadily and without torque, and a drive that believes it at rest. At 1 kHz it turns by 0.155
 /// rad a tick, three times the innovation limit: no correction that needs an innovation within the limit would ever
