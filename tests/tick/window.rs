@@ -4,8 +4,9 @@
 use core::f64::consts::TAU;
 
 use driveline::fluctuation::{
-    CycleConfig, Extremes, Fluctuation, FourierSeries, Ripple, Unusable, Waveform, WaveformConfig, Window,
+    CycleConfig, Extremes, Fluctuation, FourierSeries, Ranked, Ripple, Unusable, Waveform, WaveformConfig, Window,
 };
+use driveline::number::Fixed;
 use driveline::sample::Estimate;
 use driveline::settings::{Bases, Cycle};
 
@@ -16,7 +17,7 @@ const BINS: usize = 64;
 /// 2^-32 turns of a radian.
 const ANGLE: f64 = 4_294_967_296.0 / TAU;
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Motion {
     /// Ticks to a turn.
     ticks: f64,
@@ -303,45 +304,75 @@ fn extremes_cycle_by_cycle() {
         (Cycle { turns: 3, cycles: 5 }, true),
         (Cycle { turns: 16, cycles: 1 }, false),
     ] {
-        let motion = Motion { cycle, forward, ..STEADY };
-        let load = Motion { orders: [[1.0, -0.01, 0.02], [3.0, 0.006, 0.0], [2.0, 0.0, 0.01]], ..motion };
-        let sign = if forward { 1.0 } else { -1.0 };
-        let config = CycleConfig::new(cycle, PERIOD, Bases::SI);
-        let (mut extremes, mut turned, mut seen) = (Extremes::<f64>::default(), 0.0, 0);
-        let mut first = None;
-        motion.run(|phi, motor_speed| {
-            let load_speed = sign * load.speed() / load.slowness(phi / load.turns());
-            let estimate = Estimate { motor_speed, load_speed, ..Estimate::default() };
-            extremes.measure(&config, angle(phi), 0.0, &estimate);
-            turned = phi.abs() / motion.turns() / TAU;
-            if extremes.cycles() != seen {
-                seen = extremes.cycles();
-                let reading = extremes.reading(&config).unwrap();
-                first.get_or_insert(reading);
-                assert!((sign * reading.mean / motion.speed() - 1.0).abs() < 1e-6, "{cycle:?} {reading:?}");
-                let duration = motion.ticks * motion.turns() * PERIOD;
-                assert!((reading.duration / duration - 1.0).abs() < 1e-6, "{reading:?}");
-                for (found, of) in [(reading.motor, &motion), (reading.load, &load)] {
-                    let [max, min] = of.extremes().map(|(speed, theta)| (of.speed() * speed, theta));
-                    for (found, (speed, theta)) in [(found.max, max), (found.min, min)] {
-                        assert!((found.speed - sign * speed).abs() < 1e-6 * of.speed(), "{found:?} {speed}");
-                        let beside = (found.angle / motion.turns() - theta).abs();
-                        // the closed form is on a grid of 3e-4
-                        assert!(beside.min(TAU - beside) < 1e-3, "{cycle:?} {forward} {found:?} {theta}");
-                        assert!((0.0..config.angle).contains(&found.angle));
-                    }
-                    let swing = (max.0 - min.0).abs();
-                    assert!((found.delta - swing / of.speed()).abs() < 1e-6);
-                    assert!((found.delta_arithmetic - 2.0 * swing / (max.0 + min.0)).abs() < 1e-6);
-                }
-            }
-            turned > 6.0
-        });
-        // the first end of a cycle is found with the first segments, the last one is just passed
-        assert!((4..=5).contains(&seen), "{cycle:?} {seen}");
-        assert_eq!(first.unwrap().change, None);
-        assert!(extremes.reading(&config).unwrap().change.unwrap().abs() < 1e-5 * motion.speed());
+        extremes_of(Motion { cycle, forward, ..STEADY }, Bases::SI, 1e-6, |speed| speed);
     }
+    for (ticks, forward) in [(4_000.3, true), (400.7, true), (400.7, false)] {
+        let motion = Motion { ticks, cycle: Cycle::FOUR_STROKE, forward, ..STEADY };
+        extremes_of(motion, Bases::SI, 2e-6, |speed| speed as f32);
+        let bases = Bases { speed: 250.0, ..Bases::SI };
+        extremes_of(motion, bases, 2e-6, |speed| Fixed::from_f64(speed / 250.0));
+    }
+}
+
+/// The readings of six turns' cycles, all within the accuracy (over the speed).
+fn extremes_of<N: Ranked>(motion: Motion, bases: Bases, accuracy: f64, number: impl Fn(f64) -> N) {
+    let load = Motion { orders: [[1.0, -0.01, 0.02], [3.0, 0.006, 0.0], [2.0, 0.0, 0.01]], ..motion };
+    let sign = if motion.forward { 1.0 } else { -1.0 };
+    let config = CycleConfig::new(motion.cycle, PERIOD, bases);
+    let (mut extremes, mut turned, mut seen) = (Extremes::<N>::default(), 0.0, 0);
+    let mut first = None;
+    motion.run(|phi, motor_speed| {
+        let load_speed = number(sign * load.speed() / load.slowness(phi / load.turns()));
+        let estimate = Estimate { motor_speed: number(motor_speed), load_speed, ..Estimate::default() };
+        extremes.measure(&config, angle(phi), N::ZERO, &estimate);
+        turned = phi.abs() / motion.turns() / TAU;
+        if extremes.cycles() != seen {
+            seen = extremes.cycles();
+            let reading = extremes.reading(&config).unwrap();
+            first.get_or_insert(reading);
+            let [mean, duration]: [f64; 2] = [reading.mean.into(), reading.duration.into()];
+            assert!((sign * mean / motion.speed() - 1.0).abs() < accuracy, "{motion:?} {reading:?}");
+            let expected = motion.ticks * motion.turns() * PERIOD;
+            assert!((duration / expected - 1.0).abs() < accuracy, "{reading:?}");
+            for (found, of) in [(reading.motor, &motion), (reading.load, &load)] {
+                let [max, min] = of.extremes().map(|(speed, theta)| (of.speed() * speed, theta));
+                for (found, (speed, theta)) in [(found.max, max), (found.min, min)] {
+                    assert!((found.speed.into() - sign * speed).abs() < accuracy * of.speed(), "{found:?} {speed}");
+                    let beside = (found.angle.into() / motion.turns() - theta).abs();
+                    // the closed form is on a grid of 3e-4, and four ticks are between two samples
+                    assert!(beside.min(TAU - beside) < 5e-4 + 2.0 / motion.ticks, "{motion:?} {found:?} {theta}");
+                    assert!((0.0..config.angle).contains(&found.angle.into()));
+                }
+                let swing = (max.0 - min.0).abs();
+                assert!((found.arithmetic_mean.into() - 0.5 * sign * (max.0 + min.0)).abs() < accuracy * of.speed());
+                assert!((found.delta.into() - swing / of.speed()).abs() < accuracy);
+                assert!((found.delta_arithmetic.into() - 2.0 * swing / (max.0 + min.0)).abs() < accuracy);
+            }
+        }
+        turned > 6.0
+    });
+    // the first end of a cycle is found with the first segments, the last one is just passed
+    assert!((4..=5).contains(&seen), "{motion:?} {seen}");
+    assert_eq!(first.unwrap().change, None);
+    let change: f64 = extremes.reading(&config).unwrap().change.unwrap().into();
+    assert!(change.abs() < 10.0 * accuracy * motion.speed());
+}
+
+/// On a ramp a cycle's mean changes by the ramp's over the cycle, whose length changes by a hundredth.
+#[test]
+#[cfg_attr(miri, ignore = "too long for an interpreter")]
+fn a_trend_is_told_from_the_ripple() {
+    let mut motion = STEADY;
+    motion.acceleration = 0.01 * motion.speed() * motion.speed() / TAU;
+    let config = CycleConfig::new(motion.cycle, PERIOD, Bases::SI);
+    let mut extremes = Extremes::<f64>::default();
+    motion.run(|phi, motor_speed| {
+        let estimate = Estimate { motor_speed, load_speed: motor_speed, ..Estimate::default() };
+        extremes.measure(&config, angle(phi), 0.0, &estimate);
+        extremes.cycles() == 10
+    });
+    let reading = extremes.reading(&config).unwrap();
+    assert!((reading.change.unwrap() / (motion.acceleration * reading.duration) - 1.0).abs() < 0.01, "{reading:?}");
 }
 
 /// The torque over the angle at a steady speed: of some 250 ticks in a bin one may be missing at an end, 1/250 of what

@@ -72,7 +72,7 @@ const PARTS: [Part; 4] = [
 /// One tick of the motion, its speed as a perfect observer has it.
 fn tick<N: Built>(mean: &mut Mean<N>, config: &CycleMeanConfig<N>, motion: &mut Motion) {
     motion.advance(PERIOD);
-    let estimate = Estimate { motor_speed: N::of(motion.motor()[0]), ..Estimate::default() };
+    let estimate = Estimate { motor_speed: N::of(motion.motor_speed()), ..Estimate::default() };
     mean.measure(config, motion.encoder(), N::ZERO, &estimate);
 }
 

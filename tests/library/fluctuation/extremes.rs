@@ -1,14 +1,13 @@
-//! Every cycle's extremes and mean: of speeds in closed form, of a published punch press, and through the real drive.
+//! Every cycle's extremes and mean: of a published punch press, and through the real drive.
 
 use core::f64::consts::TAU;
 
-use driveline::fluctuation::{CycleConfig, CycleReading, Extremes, Fluctuation, Ranked};
-use driveline::number::Fixed;
+use driveline::fluctuation::{CycleConfig, Extremes, Fluctuation};
 use driveline::sample::Estimate;
 use driveline::settings::{Bases, Cycle};
 
 use super::motion::{Motion, Part};
-use super::rig::{BASES, Built, InDouble, MOTOR, PERIOD, RATED, STIFFNESS, run};
+use super::rig::{Built, InDouble, PERIOD, RATED, run};
 use crate::references::data;
 
 const PARTS: [Part; 2] = [Part { n: 1.0, amplitude: 0.03, phase: 0.7 }, Part { n: 2.0, amplitude: 0.025, phase: -1.1 }];
@@ -16,88 +15,6 @@ const PARTS: [Part; 2] = [Part { n: 1.0, amplitude: 0.03, phase: 0.7 }, Part { n
 /// The angle as finely as it is held: no encoder.
 fn exact(phi: f64) -> u32 {
     (phi / TAU * 4_294_967_296.0).floor() as i64 as u32
-}
-
-/// The reading after some cycles of a motion whose speeds are given as they are, per unit of `base`.
-fn follow<N: Ranked>(
-    motion: &mut Motion,
-    cycle: Cycle,
-    bases: Bases,
-    cycles: u32,
-    number: impl Fn(f64) -> N,
-) -> CycleReading<f64> {
-    let config = CycleConfig::new(cycle, PERIOD, bases);
-    let mut extremes = Extremes::<N>::default();
-    while extremes.cycles() < cycles {
-        motion.advance(PERIOD);
-        let estimate = Estimate {
-            motor_speed: number(motion.motor()[0]),
-            load_speed: number(motion.load_speed(MOTOR, STIFFNESS)),
-            ..Estimate::default()
-        };
-        extremes.measure(&config, exact(motion.phi), N::ZERO, &estimate);
-    }
-    extremes.reading(&config).unwrap().in_double()
-}
-
-/// Delta of the load by the closed form, from a fine grid: at a steady speed its ripple is that of the motor plus the
-/// jerk's.
-fn load_swing(motion: &Motion) -> f64 {
-    let at = |k: i32| {
-        let moved = Motion { phi: f64::from(k) * 1e-4 * TAU * motion.turns, ..motion.clone() };
-        moved.load_speed(MOTOR, STIFFNESS)
-    };
-    let speeds: Vec<f64> = (0..10_000).map(at).collect();
-    speeds.iter().fold(f64::MIN, |a, &b| a.max(b)) - speeds.iter().fold(f64::MAX, |a, &b| a.min(b))
-}
-
-/// At 100 samples to the faster order's period (0.4 ms of 40 ms) the parabola misses 4e-5 of the amplitude at most. In
-/// `f32` speeds of 157 rad/s are known to 8e-6 rad/s, which the place of an extreme sees by its root.
-#[test]
-fn extremes_of_a_closed_form() {
-    let single = |speed: f64| speed as f32;
-    let fixed = |speed: f64| Fixed::from_f64(speed / BASES.speed);
-    let of = |speed| Motion::new(speed, 0.0, 2.0, &PARTS);
-    for speed in [157.0, -157.0, 17.27] {
-        for reading in [
-            follow::<f64>(&mut of(speed), Cycle::FOUR_STROKE, Bases::SI, 3, |speed| speed),
-            follow::<f32>(&mut of(speed), Cycle::FOUR_STROKE, Bases::SI, 3, single),
-            follow::<Fixed>(&mut of(speed), Cycle::FOUR_STROKE, BASES, 3, fixed),
-        ] {
-            let motion = of(speed);
-            let (swing, most, least) = motion.swing();
-            let by_time = speed * motion.mean_by_time();
-            assert!((reading.mean / by_time - 1.0).abs() < 2e-6, "{reading:?} {by_time}");
-            let motor = &reading.motor;
-            assert!((motor.delta * by_time.abs() / (swing * speed.abs()) - 1.0).abs() < 3e-4, "{reading:?} {swing}");
-            let arithmetic = 0.5 * (motor.max.speed + motor.min.speed);
-            assert_eq!(motor.arithmetic_mean, arithmetic);
-            assert!((motor.delta_arithmetic * arithmetic.abs() / (swing * speed.abs()) - 1.0).abs() < 3e-4);
-            // Backwards the greatest speed is where the ripple is least.
-            let (most, least) = if speed > 0.0 { (most, least) } else { (least, most) };
-            let near = |angle: f64, at: f64| ((angle / (2.0 * TAU) - at + 0.5).rem_euclid(1.0) - 0.5).abs();
-            assert!(
-                near(motor.max.angle, most) < 1e-3 && near(motor.min.angle, least) < 1e-3,
-                "{reading:?} {most} {least}"
-            );
-            let load = load_swing(&motion);
-            assert!(
-                ((reading.load.max.speed - reading.load.min.speed) / load - 1.0).abs() < 3e-4,
-                "{reading:?} {load}"
-            );
-            assert!(reading.change.unwrap().abs() < 1e-4 * speed.abs());
-        }
-    }
-}
-
-/// On a ramp the mean of a cycle is that of its middle, and its change is the ramp's over a cycle.
-#[test]
-fn a_trend_is_told_from_the_ripple() {
-    let mut motion = Motion::new(RATED, 15.7, 2.0, &PARTS);
-    let reading = follow::<f64>(&mut motion, Cycle::FOUR_STROKE, Bases::SI, 10, |speed| speed);
-    let change = reading.change.unwrap();
-    // The mean of a cycle is by time, and its length shrinks by a hundredth from one to the next.
-    assert!((change / (15.7 * reading.duration) - 1.0).abs() < 0.01, "{reading:?}");
 }
 
 /// The punch press of the reference cases: its speed falls by a third at a corner and rises at another. Between samples

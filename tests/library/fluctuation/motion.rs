@@ -1,10 +1,8 @@
-//! Motions in closed form: the motor's speed over its angle is prescribed, and what shaft and load do follows from the
-//! machine's law.
+//! Motions in closed form: the motor's speed over its angle is prescribed.
 //!
 //! ```text
 //! omega(phi, t) = W(t) (1 + sum a_n cos(n theta - p_n)),   W(t) = W0 + ramp t,
 //! theta = phi over the cycle's angle, 2 pi to the cycle
-//! T = tau - J_m d omega/dt,   twist = T/k,   omega_l = omega - d twist/dt
 //! ```
 
 use core::f64::consts::TAU;
@@ -44,22 +42,13 @@ impl Motion {
         Motion { speed, ramp, turns, parts: parts.to_vec(), phi: 0.3, time: 0.0 }
     }
 
-    /// The ripple and its first three derivatives by phi.
-    pub fn ripple(&self, phi: f64) -> [f64; 4] {
-        let mut sum = [0.0; 4];
-        for part in &self.parts {
-            let rate = part.n / self.turns;
-            let (s, c) = (rate * phi - part.phase).sin_cos();
-            sum[0] += part.amplitude * c;
-            sum[1] -= part.amplitude * rate * s;
-            sum[2] -= part.amplitude * rate * rate * c;
-            sum[3] += part.amplitude * rate * rate * rate * s;
-        }
-        sum
+    /// The ripple over W.
+    fn ripple(&self, phi: f64) -> f64 {
+        self.parts.iter().map(|part| part.amplitude * (part.n / self.turns * phi - part.phase).cos()).sum()
     }
 
     fn speed_at(&self, phi: f64, time: f64) -> f64 {
-        (self.speed + self.ramp * time) * (1.0 + self.ripple(phi)[0])
+        (self.speed + self.ramp * time) * (1.0 + self.ripple(phi))
     }
 
     /// Goes on by `dt` (s): Runge and Kutta's fourth order, in steps that turn by less than 2 mrad of the highest
@@ -77,8 +66,7 @@ impl Motion {
     /// Goes on to an angle by Newton's method: the time to it is what is left over the speed.
     pub fn advance_to(&mut self, angle: f64) {
         for _ in 0..6 {
-            let speed = self.motor()[0];
-            self.advance((angle - self.phi) / speed);
+            self.advance((angle - self.phi) / self.motor_speed());
         }
     }
 
@@ -86,25 +74,13 @@ impl Motion {
     /// rectangles, which is exact for a series.
     pub fn mean_by_time(&self) -> f64 {
         let points = 20_000;
-        let slowness = |k: i32| 1.0 / (1.0 + self.ripple(f64::from(k) / f64::from(points) * TAU * self.turns)[0]);
+        let slowness = |k: i32| 1.0 / (1.0 + self.ripple(f64::from(k) / f64::from(points) * TAU * self.turns));
         f64::from(points) / (0..points).map(slowness).sum::<f64>()
     }
 
-    /// Speed, acceleration and jerk of the motor now.
-    pub fn motor(&self) -> [f64; 3] {
-        let [r, r1, r2, _] = self.ripple(self.phi);
-        let (w, ramp) = (self.speed + self.ramp * self.time, self.ramp);
-        let speed = w * (1.0 + r);
-        let acceleration = ramp * (1.0 + r) + w * r1 * speed;
-        let jerk = 2.0 * ramp * r1 * speed + w * r2 * speed * speed + w * r1 * acceleration;
-        [speed, acceleration, jerk]
-    }
-
-    /// Speed of the load behind a shaft of this stiffness with this inertia in front of it, under a constant torque of
-    /// the motor.
-    pub fn load_speed(&self, inertia: f64, stiffness: f64) -> f64 {
-        let [speed, _, jerk] = self.motor();
-        speed + inertia * jerk / stiffness
+    /// Speed of the motor now.
+    pub fn motor_speed(&self) -> f64 {
+        self.speed_at(self.phi, self.time)
     }
 
     /// What an encoder of 8192 counts shows, as 2^32 to the turn.
@@ -116,7 +92,7 @@ impl Motion {
     /// form.
     pub fn swing(&self) -> (f64, f64, f64) {
         let points = 100_000;
-        let at = |k: i32| self.ripple(f64::from(k) / f64::from(points) * TAU * self.turns)[0];
+        let at = |k: i32| self.ripple(f64::from(k) / f64::from(points) * TAU * self.turns);
         let (mut most, mut least) = (0, 0);
         for k in 0..points {
             if at(k) > at(most) {

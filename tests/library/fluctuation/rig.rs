@@ -18,12 +18,6 @@ use super::motion::Motion;
 /// Bins of the waveform.
 pub const BINS: usize = 64;
 
-/// Inertia of the motor (kg m2).
-pub const MOTOR: f64 = 2.0;
-/// Inertia of the load (kg m2).
-pub const LOAD: f64 = 4.0;
-/// Stiffness between them (N m/rad): a resonance of 61 Hz.
-pub const STIFFNESS: f64 = 2.0e5;
 /// Rated speed (rad/s), 1500 r/min.
 pub const RATED: f64 = 157.0;
 /// Constant torque of the motor (N m).
@@ -31,14 +25,15 @@ pub const TORQUE: f64 = 300.0;
 /// Time between ticks (s).
 pub const PERIOD: f64 = 1e-4;
 
-const MACHINE: TwoMass = TwoMass::new(Inertia(MOTOR), Inertia(LOAD), Stiffness(STIFFNESS), Damping(0.0));
+/// A resonance of 61 Hz.
+const MACHINE: TwoMass = TwoMass::new(Inertia(2.0), Inertia(4.0), Stiffness(2.0e5), Damping(0.0));
 /// The load torque may wander by what the largest ripple of these tests takes within a tenth of a second.
 const DESIGN: TwoMassDesign = MACHINE.observer(
     Rate::hz(10_000),
     Encoder::lines(2048),
     Disturbance { torque_accuracy: 3.0, load_torque_step: 3000.0, within: 0.1 },
 );
-pub const BASES: Bases = Bases::of(&DESIGN, 12_000.0, 250.0);
+const BASES: Bases = Bases::of(&DESIGN, 12_000.0, 250.0);
 const SCREENING: Screening =
     Screening { torque: 3000.0, setpoint: 200.0, innovation: 0.05, frozen_turn: 1.5e-3, max_coast: 150 };
 

@@ -203,35 +203,6 @@ fn a_lost_place_begins_the_window_anew() {
     assert_eq!((ripple.quality.missed, ripple.acceleration), (0, 0.0));
 }
 
-/// The spread over cycles and the residue: an order that is not looked at is left over, and a speed that differs from
-/// cycle to cycle scatters.
-#[test]
-fn what_the_orders_leave_is_stated() {
-    let parts = [Part { n: 2.0, amplitude: 5e-3, phase: 0.7 }, Part { n: 8.0, amplitude: 4e-3, phase: 0.1 }];
-    let (ripple, _, _) = measured::<58>(&parts, 1, 157.0, 0.0, 1);
-    // The angle that the eighth order leads and lags by: 4e-3/8, its rms over sqrt 2.
-    assert!((ripple.quality.residue / (4e-3 / 8.0 / 2_f64.sqrt()) - 1.0).abs() < 0.1, "{:?}", ripple.quality);
-    // Every cycle is the same but for the clock: half a count is 20 urad, at the tooth and at both ends.
-    assert!(ripple.quality.spread < 4e-5, "{:?}", ripple.quality);
-    // 0.1 % faster every second cycle, in a wheel of 60 ideal teeth: up to half a cycle's worth at its middle.
-    let config = config(1);
-    let mut wheel = ToothedWheel::<CycleTimes<58>>::default();
-    let mut window = ToothWindow::default();
-    for tooth in 0..60_u32 * 40 {
-        let pitch = 10_000.0;
-        let late = 500.0 * (TAU * f64::from(tooth) / 120.0).sin();
-        if tooth % 60 < 58 {
-            wheel.tooth(&config, (f64::from(tooth) * pitch + late) as u32);
-        }
-        if let Some(cycle) = wheel.take() {
-            window.add(&config, &cycle);
-        }
-    }
-    let quality = window.ripple(&config, &ToothErrors::NONE, 4).unwrap().quality;
-    // A half wave of 0.05 pitches either way: 5.2 mrad, rms 3.7.
-    assert!((quality.spread / 3.7e-3 - 1.0).abs() < 0.02, "{quality:?}");
-}
-
 #[test]
 fn a_window_that_cannot_be_used_says_why() {
     let config = config(1);
