@@ -162,7 +162,8 @@ fn slew_and_limit_hold_in_every_tick() {
     }
 }
 
-/// The damping alone, with the gains of a speed loop, is the speed loop.
+/// The damping alone, with the gains of a speed loop, is the speed loop: on a run-up, while the machine is held for half
+/// a second and the torque is at its limit, and behind that.
 #[test]
 fn with_damping_and_nothing_else_it_is_the_speed_loop() {
     use driveline::design::SpeedLoopTuning;
@@ -177,16 +178,19 @@ fn with_damping_and_nothing_else_it_is_the_speed_loop() {
     let loop_config = SpeedLoopConfig::<f32>::new(&design, SETTINGS, Bases::SI);
     let mut governor = <StateOf<SpeedGovernor<(), ActiveDamping>, f32>>::default();
     let mut speed_loop = SpeedLoop::<(), _>::default();
+    let mut limited = 0;
     for tick in 0..4000 {
         let swing = (f64::from(tick) * 0.05).sin() as f32;
-        let now =
-            Estimate { motor_speed: 0.02 * tick as f32 + swing, load_speed: 0.02 * tick as f32, ..Estimate::default() };
+        let load_speed = if (1000..2000).contains(&tick) { 0.0 } else { 0.02 * tick as f32 };
+        let now = Estimate { motor_speed: load_speed + swing, load_speed, ..Estimate::default() };
         governor.set_setpoint(SPEED as f32);
         speed_loop.set_setpoint(SPEED as f32);
         let (a, b) = (governor.command(&config, &now), speed_loop.command(&loop_config, &now));
+        limited += u32::from(a == TORQUE as f32);
         // The sums are taken in another order: a few roundings of 2500 N m.
         assert!((a - b).abs() < 0.01, "{tick}: {a} {b}");
     }
+    assert!((900..3000).contains(&limited), "{limited}");
 }
 
 /// With a power limit the curve gives no more than the power at its points, and the stated excess between.

@@ -79,36 +79,6 @@ proptest! {
     }
 }
 
-/// A rotor alone (J omega' = tau), wanted at rated speed at once with 100 N m to do it: 1.8 s at the limit.
-///
-/// The integral follows the limited torque with its own time constant, so it is never beyond the limit. At the peak the
-/// torque k_p e + I is zero, so the overshoot is I/k_p at most: 100 N m/(10.5 N m s/rad), 6 % of rated speed. An
-/// integral that is not unwound grows to k_i times the area under the error, forty times the limit, and overshoots by
-/// several times that.
-#[test]
-fn the_integral_does_not_wind_up() {
-    let inertia = REDUCED.motor_inertia + REDUCED.load_inertia;
-    let (period, limit) = (1e-4, 100.0);
-    let settings = SpeedLoopSettings { torque_limit: limit, ramp: 1e9 };
-    let config = SpeedLoopConfig::<f64>::new(&design(), settings, Bases::SI);
-    let (mut governor, mut speed, mut top, mut limited) = (SpeedLoop::<(), _>::default(), 0.0, 0.0_f64, 0);
-    for _ in 0..60_000 {
-        let now = Estimate { motor_speed: speed, load_speed: speed, ..Estimate::default() };
-        governor.set_setpoint(RATED_SPEED);
-        let torque = governor.command(&config, &now);
-        limited += u32::from(torque.abs() >= limit);
-        speed += period * torque / inertia;
-        top = top.max(speed);
-    }
-    let (overshoot, left) = (top - RATED_SPEED, speed - RATED_SPEED);
-    let bound = limit / design().proportional;
-    // The area under the limit is J omega: 1.8 s of ticks, less the end, which is linear from e = 100 N m/k_p on.
-    assert!(limited > 16_000, "{limited}");
-    assert!(overshoot > 0.0 && overshoot < bound, "{overshoot} of {bound}");
-    // Four seconds are ten of the integral's time constants k_p/k_i.
-    assert!(left.abs() < 1e-3 * bound, "{left}");
-}
-
 /// From the brake to the governor: the first torque is the held one, but for what the first step of the ramp asks for.
 #[test]
 fn from_hold_to_tick_there_is_no_jolt() {
