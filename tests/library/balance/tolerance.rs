@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use driveline::balancing::{BalanceTolerance, Complex, Entry, Error, GRADES, degrees, from_amplitudes, two_planes};
+use driveline::balancing::{BalanceTolerance, Complex, Error, GRADES, from_amplitudes, two_planes};
 use serde_json::Value;
 
 use super::noise::Noise;
@@ -99,11 +99,6 @@ fn amplitudes_alone() {
     }
     // A wrong amplitude can by chance be that of another rotor: a tenth of the effect's square on either side.
     assert!(noticed >= 180, "{noticed}");
-    let runs = [(0.0, 1.0), (2.0, 1.5), (4.0, 2.0)];
-    assert_eq!(from_amplitudes(1.0, 0.0, &runs), Err(Error::TrialWeightZero { plane: 0 }));
-    assert_eq!(from_amplitudes(1.0, 1.0, &runs[..1]), Err(Error::ReadingMissing { row: 2 }));
-    assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, 1.0), (2.0, -1.5)]), Err(Error::Reading { row: 2 }));
-    assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, 1.0), (2.0, 1.0), (4.0, 1.0)]), Err(Error::NoEffect { plane: 0 }));
     assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, 1.1), (0.0, 1.2), (0.0, 1.3)]), Err(Error::TrialAngles));
 }
 
@@ -123,27 +118,6 @@ fn grades_end_to_the_last_place() {
             assert!(verdict.passed && verdict.fulfils == Some(known as f32), "{known} {verdict:?}");
         }
     }
-}
-
-#[test]
-fn phases_in_radians_are_noticed() {
-    let mut entry = Entry::new();
-    for phase in [1.9, 4.15, 5.2] {
-        entry.polar(1.0, phase);
-    }
-    assert_eq!(entry.check(), Err(Error::PhasesInRadians));
-    let mut entry = Entry::new();
-    for phase in [1.9, 4.15, 120.0] {
-        entry.polar(1.0, phase);
-    }
-    assert_eq!(entry.check(), Ok(()));
-    let mut entry = Entry::new();
-    for phase in [0.0, 0.0, 5.0, 3.0] {
-        entry.polar(1.0, phase);
-    }
-    assert_eq!(entry.check(), Ok(()));
-    let (amplitude, phase) = degrees(Entry::new().polar(2.0, -90.0));
-    assert!((amplitude - 2.0_f64).abs() < 1e-15 && (phase - 270.0).abs() < 1e-12);
 }
 
 /// Runs that contradict each other: their amplitudes' squares are `v0^2 + (1 + d) x^2 + 2 v0 x cos`, by a part d of the
@@ -200,10 +174,5 @@ fn amplitudes_that_the_trial_hardly_changes_are_refused() {
         let found = from_amplitudes(4.0, 1.0, &[run(0.0), run(120.0), run(240.0)]);
         assert_eq!(found.is_ok(), is_found, "{found:?}");
         assert!(is_found || found == Err(Error::NoEffect { plane: 0 }));
-    }
-    for wrong in [f64::NAN, f64::INFINITY, 0.0, -1.0] {
-        let runs = [(0.0, 1.1), (2.0, 0.9)];
-        assert_eq!(from_amplitudes(wrong, 1.0, &runs), Err(Error::Reading { row: 0 }));
-        assert_eq!(from_amplitudes(1.0, wrong, &runs), Err(Error::TrialWeightZero { plane: 0 }));
     }
 }
