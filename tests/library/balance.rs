@@ -8,7 +8,6 @@ mod influence;
 mod min_max;
 mod modal;
 mod never_harmful;
-pub mod noise;
 mod phasor;
 mod polygon;
 mod procedure;
@@ -17,7 +16,8 @@ mod tolerance;
 use std::f64::consts::{PI, TAU};
 
 use driveline::balancing::{Complex, InRunConfig};
-use noise::Noise;
+
+use crate::noise::Noise;
 
 /// Of the grinding spindle: the largest correction of its head (kg m), its speed, 3000 r/min, and the residual of 25 kg
 /// at that speed in G2.5 [ISO 21940-11], 2.5e-3 m/s of the centre of mass.

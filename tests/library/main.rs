@@ -18,6 +18,7 @@ mod learning;
 mod lift;
 mod machine;
 mod mechanism;
+mod noise;
 mod parameters;
 mod recordings;
 mod references;

@@ -14,9 +14,9 @@ use driveline::parameters::Store;
 use driveline::prelude::*;
 use nalgebra::{Matrix2, Matrix4, Vector2, Vector4};
 
-use super::noise::Noise;
 use super::{CAPACITY, G2_5, MASS, SPEED, ZERO, turned};
 use crate::flash::Flash;
+use crate::noise::Noise;
 
 struct Grinder;
 

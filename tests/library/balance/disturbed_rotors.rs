@@ -8,8 +8,8 @@ use std::f64::consts::TAU;
 
 use driveline::balancing::{Action, Complex, InRun};
 
-use super::noise::Noise;
 use super::{CAPACITY, G2_5, SPEED, SPINDLE, ZERO, turned};
+use crate::noise::Noise;
 
 type Z = Complex<f64>;
 

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use driveline::balancing::{Complex, CorrectionMethod, Error, Holes};
 
-use super::noise::Noise;
+use crate::noise::Noise;
 
 /// The best of every pair of holes, with every pair of weights.
 fn exhaustive(angles: &[f64], weights: &[f64], target: Complex<f64>) -> f64 {

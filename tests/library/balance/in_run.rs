@@ -2,8 +2,8 @@
 
 use driveline::balancing::{AbortReason, Action, Complex, InRun, InRunConfig, Influence};
 
-use super::noise::Noise;
 use super::turned;
+use crate::noise::Noise;
 
 /// Readings are off by 0.5 %, and the influence drifts by 1 % in each part from move to move, which looks the same: 1.5
 /// % of noise.

@@ -5,7 +5,7 @@ use driveline::balancing::{Aim, Complex, Error, Influence, Objective, Scalar};
 use nalgebra::{convert, try_convert};
 use serde_json::Value;
 
-use super::noise::Noise;
+use crate::noise::Noise;
 use crate::references::data;
 
 type Problem<T> = Influence<T, 8, 4>;

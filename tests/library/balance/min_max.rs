@@ -3,7 +3,7 @@
 use driveline::balancing::{Aim, Complex, Influence, Objective, Scalar};
 use nalgebra::{convert, try_convert};
 
-use super::noise::Noise;
+use crate::noise::Noise;
 
 type Rows = Vec<[Complex<f64>; 4]>;
 

@@ -4,8 +4,8 @@ use std::ops::RangeInclusive;
 
 use driveline::balancing::{Action, Complex, InRun};
 
-use super::noise::Noise;
 use super::{CAPACITY, G2_5, SPEED, SPINDLE, ZERO, turned};
+use crate::noise::Noise;
 
 /// What disturbs a start, each as a share.
 #[derive(Clone, Copy, Default)]

@@ -10,7 +10,7 @@ use driveline::machine::{Chain, Damping, Inertia, Speed, Stiffness, Torque};
 use driveline::number::Fixed;
 use driveline::settings::PhasorSettings;
 
-use super::noise::Noise;
+use crate::noise::Noise;
 
 /// A rotor behind a gear, its motor's angle as an encoder shows it, and one vibration channel.
 struct Rig {

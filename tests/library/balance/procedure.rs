@@ -2,7 +2,7 @@
 
 use driveline::balancing::{Aim, Complex, Error, Influence, Plan, Procedure, ProcedureStep, Run};
 
-use super::noise::Noise;
+use crate::noise::Noise;
 
 type Field = Procedure<f64, 4, 2>;
 type Model = Influence<f64, 4, 2>;

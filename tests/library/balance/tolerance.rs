@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use driveline::balancing::{BalanceTolerance, Complex, Error, GRADES, from_amplitudes, two_planes};
 use serde_json::Value;
 
-use super::noise::Noise;
+use crate::noise::Noise;
 use crate::references::data;
 
 fn number(case: &Value, key: &str) -> f64 {

@@ -8,6 +8,8 @@ use driveline::machine::{
     Chain, Damping, Diameter, Efficiency, Inertia, Length, Mass, Match, Ratio, Stiffness, TwoMass,
 };
 
+use crate::noise::Noise;
+
 /// Two masses, their rate, observer and speed loop.
 struct Loop {
     two: TwoMass,
@@ -98,11 +100,8 @@ fn a_lag_of_the_speed_bears_a_shaft_of_a_tenth_of_its_damping() {
 /// what is refused, most are unstable with one. The rest are margins, or resonances of other shapes.
 #[test]
 fn loops_that_are_accepted_bear_shafts_anywhere_above_the_described_frequency() {
-    let mut seed = 7_u64;
-    let mut between = |low: f64, high: f64| {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        low * (high / low).powf((seed >> 11) as f64 / (1_u64 << 53) as f64)
-    };
+    let mut noise = Noise::new(7);
+    let mut between = |low: f64, high: f64| noise.between(low, high);
     let (mut accepted, mut refused, mut confirmed) = (0, 0, 0);
     for _ in 0..2_000 {
         let resonance = between(5.0, 300.0);

@@ -3,8 +3,8 @@
 use driveline::machine::{Chain, Damping, Inertia, Match, Ratio, Stiffness, Train, TwoMass};
 use nalgebra::Complex;
 
-use crate::balance::noise::Noise;
 use crate::machine::chain;
+use crate::noise::Noise;
 use crate::references::close;
 
 const ONE: Ratio = Ratio(1.0);
@@ -103,17 +103,12 @@ fn nearly_equal_branches_join() {
 struct Random(Noise);
 
 impl Random {
-    /// Even in its logarithm.
-    fn between(&mut self, least: f64, most: f64) -> f64 {
-        least * (most / least).powf(self.0.even())
-    }
-
     fn inertias(&mut self, count: usize) -> Vec<f64> {
-        (0..count).map(|_| self.between(0.05, 2.0)).collect()
+        (0..count).map(|_| self.0.between(0.05, 2.0)).collect()
     }
 
     fn stiffnesses(&mut self, count: usize) -> Vec<f64> {
-        (0..count).map(|_| self.between(1e3, 1e5)).collect()
+        (0..count).map(|_| self.0.between(1e3, 1e5)).collect()
     }
 
     fn below(&mut self, count: usize) -> usize {
@@ -129,13 +124,13 @@ impl Random {
     fn branched(&mut self, alike: bool) -> Train {
         let masses = 1 + self.below(3);
         let mut train = Train::of(chain(&self.inertias(masses), &self.stiffnesses(masses - 1)));
-        let (j, k) = (self.between(0.05, 2.0), self.between(1e3, 1e5));
+        let (j, k) = (self.0.between(0.05, 2.0), self.0.between(1e3, 1e5));
         for _ in 0..2 + self.below(2) {
             let mut near = |value: f64| value * (0.85 + 0.3 * self.0.even());
             let (at, j, k) = if alike {
                 (masses - 1, near(j), near(k))
             } else {
-                (self.below(masses), self.between(0.05, 2.0), self.between(1e3, 1e5))
+                (self.below(masses), self.0.between(0.05, 2.0), self.0.between(1e3, 1e5))
             };
             train = train.branch(at, ONE, chain(&[1e-3, j], &[k]));
         }

@@ -25,41 +25,24 @@ trait Built: Number {
     fn to(self) -> f64;
 }
 
-impl Built for f64 {
-    fn config() -> CycleMeanConfig<f64> {
-        CycleMeanConfig::<f64>::new::<64>(STROKE, PERIOD, Bases::SI)
-    }
-    fn of(speed: f64) -> f64 {
-        speed
-    }
-    fn to(self) -> f64 {
-        self
-    }
+macro_rules! built {
+    ($number:ident, $bases:expr, $of:expr, $to:expr) => {
+        impl Built for $number {
+            fn config() -> CycleMeanConfig<$number> {
+                CycleMeanConfig::<$number>::new::<64>(STROKE, PERIOD, $bases)
+            }
+            fn of(speed: f64) -> $number {
+                $of(speed)
+            }
+            fn to(self) -> f64 {
+                $to(self)
+            }
+        }
+    };
 }
-
-impl Built for f32 {
-    fn config() -> CycleMeanConfig<f32> {
-        CycleMeanConfig::<f32>::new::<64>(STROKE, PERIOD, Bases::SI)
-    }
-    fn of(speed: f64) -> f32 {
-        speed as f32
-    }
-    fn to(self) -> f64 {
-        f64::from(self)
-    }
-}
-
-impl Built for Fixed {
-    fn config() -> CycleMeanConfig<Fixed> {
-        CycleMeanConfig::<Fixed>::new::<64>(STROKE, PERIOD, BASES)
-    }
-    fn of(speed: f64) -> Fixed {
-        Fixed::from_f64(speed / BASE)
-    }
-    fn to(self) -> f64 {
-        self.to_f64() * BASE
-    }
-}
+built!(f64, Bases::SI, |speed| speed, |speed| speed);
+built!(f32, Bases::SI, |speed| speed as f32, f64::from);
+built!(Fixed, BASES, |speed| Fixed::from_f64(speed / BASE), |speed: Fixed| speed.to_f64() * BASE);
 
 /// A ripple of some 20 % from peak to peak, of low and of high orders.
 const PARTS: [Part; 4] = [

@@ -19,7 +19,7 @@ use driveline::settings::{Bases, Cycle, Screening, Teeth, ToothClock};
 use driveline::wheel::{CycleTimes, ToothedWheel, ToothedWheelConfig};
 
 use super::rig::InDouble;
-use crate::balance::noise::Noise;
+use crate::noise::Noise;
 use crate::runge_kutta;
 
 /// Orders of the speed over its mean by the angle: amplitude and phase.
@@ -166,11 +166,6 @@ fn by_extremes_of_noisy_speeds() {
     judged.holds("extremes", 0.1);
 }
 
-/// Even over the logarithm.
-fn between(least: f64, largest: f64, noise: &mut Noise) -> f64 {
-    least * (largest / least).powf(noise.even())
-}
-
 /// A window of 64 bins, by an encoder of so many counts at so many ticks to the turn.
 fn by_ticks(wave: &Wave, ticks: f64, counts: f64, [cycles, orders]: [u32; 2], start: f64) -> Option<Fluctuations> {
     let config = WaveformConfig::new::<64>(CycleConfig::new(Cycle::TURN, 1e-4, Bases::SI), cycles);
@@ -197,12 +192,12 @@ fn by_ticks_of_an_encoder() {
     for (name, orders) in [("4 orders", 4), ("8 orders", 8), ("12 orders", 12)] {
         let (mut noise, mut judged) = (Noise::new(73), Judged::default());
         while judged.runs < 150 {
-            let wave = Wave::random(between(0.002, 0.3, &mut noise), &mut noise);
-            let ticks = between(75.0, 1500.0, &mut noise);
+            let wave = Wave::random(noise.between(0.002, 0.3), &mut noise);
+            let ticks = noise.between(75.0, 1500.0);
             let whole = noise.even() < 0.4;
             let ticks = if whole { ticks.round() + 0.1 * noise.even().powi(8) } else { ticks };
-            let counts = between(500.0, 1e5, &mut noise).round();
-            let cycles = between(1.0, 50.0, &mut noise) as u32;
+            let counts = noise.between(500.0, 1e5).round();
+            let cycles = noise.between(1.0, 50.0) as u32;
             if let Some(found) = by_ticks(&wave, ticks, counts, [cycles, orders], TAU * noise.even()) {
                 judged.add(found, wave.delta());
             }
@@ -250,19 +245,19 @@ impl Cut {
 /// none where the random observer cannot be designed or its drive has a fault.
 fn of_a_cut(orders: usize, noise: &mut Noise) -> Option<([Fluctuations; 2], [f64; 2])> {
     const PERIOD: f64 = 1e-4;
-    let motor = between(0.05, 5.0, noise);
-    let load = motor * between(0.2, 8.0, noise);
-    let resonance = between(60.0, 1500.0, noise);
+    let motor = noise.between(0.05, 5.0);
+    let load = motor * noise.between(0.2, 8.0);
+    let resonance = noise.between(60.0, 1500.0);
     let stiffness = resonance * resonance / (1.0 / motor + 1.0 / load);
-    let damping = Damping(2.0 * between(0.005, 0.08, noise) * stiffness / resonance);
+    let damping = Damping(2.0 * noise.between(0.005, 0.08) * stiffness / resonance);
     let machine = TwoMass::new(Inertia(motor), Inertia(load), Stiffness(stiffness), damping);
-    let mean = TAU / PERIOD / between(160.0, 2500.0, noise);
-    let lines = between(1024.0, 1e6, noise) as u32;
-    let rated = (motor + load) * mean * between(0.5, 5.0, noise);
+    let mean = TAU / PERIOD / noise.between(160.0, 2500.0);
+    let lines = noise.between(1024.0, 1e6) as u32;
+    let rated = (motor + load) * mean * noise.between(0.5, 5.0);
     // from an observer that is as fast as the encoder allows to one that follows in seconds
-    let (step, within) = (rated * between(0.02, 2.0, noise), between(0.005, 5.0, noise));
+    let (step, within) = (rated * noise.between(0.02, 2.0), noise.between(0.005, 5.0));
     let disturbance = Disturbance { torque_accuracy: 0.01 * rated, load_torque_step: step, within };
-    let swing = between(0.05, 1.0, noise);
+    let swing = noise.between(0.05, 1.0);
     let cut = (0..orders).map(|_| (swing * f64::max(0.05, noise.even() - 0.3), TAU * noise.even())).collect();
     let design: TwoMassDesign = machine.try_observer(Rate::hz(10_000), Encoder::lines(lines), disturbance).ok()?;
     let level = 0.5 * rated;
@@ -326,15 +321,15 @@ fn by_extremes_of_an_observer_of_any_speed() {
 /// read: their products have twice as many. The shaft's twist is integrated by Runge and Kutta's fourth order.
 fn behind_a_shaft(noise: &mut Noise) -> Option<(Fluctuations, f64)> {
     const PERIOD: f64 = 1e-4;
-    let motor = between(0.05, 5.0, noise);
-    let load = motor * between(0.2, 8.0, noise);
-    let mean = between(10.0, 150.0, noise);
+    let motor = noise.between(0.05, 5.0);
+    let load = motor * noise.between(0.2, 8.0);
+    let mean = noise.between(10.0, 150.0);
     // the orders lie on both sides of it
-    let resonance = mean * between(0.6, 40.0, noise);
+    let resonance = mean * noise.between(0.6, 40.0);
     let stiffness = resonance * resonance / (1.0 / motor + 1.0 / load);
-    let damping = 2.0 * between(0.005, 0.08, noise) * stiffness / resonance;
-    let wave = Wave::random(between(0.002, 0.1, noise), noise);
-    let (driven, level) = (Wave::random(between(0.002, 0.3, noise), noise), motor * mean * mean);
+    let damping = 2.0 * noise.between(0.005, 0.08) * stiffness / resonance;
+    let wave = Wave::random(noise.between(0.002, 0.1), noise);
+    let (driven, level) = (Wave::random(noise.between(0.002, 0.3), noise), motor * mean * mean);
     let force = |angle: f64| {
         let slope = (wave.at(angle + 1e-5) - wave.at(angle - 1e-5)) / 2e-5;
         level * (0.1 * driven.at(angle) - wave.at(angle) * slope)
@@ -355,8 +350,8 @@ fn behind_a_shaft(noise: &mut Noise) -> Option<(Fluctuations, f64)> {
         }
     }
     let cycle = CycleConfig::new(Cycle::TURN, PERIOD, Bases::SI);
-    let config = WaveformConfig::new::<64>(cycle, between(1.0, 40.0, noise) as u32);
-    let counts = (4.0 * between(512.0, 1e5, noise)).round();
+    let config = WaveformConfig::new::<64>(cycle, noise.between(1.0, 40.0) as u32);
+    let counts = (4.0 * noise.between(512.0, 1e5)).round();
     let (mut waveform, mut angle) = (Waveform::<64, f32>::default(), TAU * noise.even());
     loop {
         let before = angle;

@@ -6,7 +6,7 @@ use driveline::balancing::ReadingFault;
 use driveline::fluctuation::{Fluctuation, GearMesh, GearMeshConfig, GearMeshError, MeshReading, Sideband};
 use driveline::sample::Estimate;
 
-use crate::balance::noise::Noise;
+use crate::noise::Noise;
 
 /// Counts on a turn.
 const COUNTS: f64 = 8192.0;

@@ -16,6 +16,11 @@ impl Noise {
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 
+    /// Even in its logarithm.
+    pub fn between(&mut self, least: f64, most: f64) -> f64 {
+        least * (most / least).powf(self.even())
+    }
+
     /// Normal, of variance one: the sum of twelve even ones.
     pub fn normal(&mut self) -> f64 {
         (0..12).map(|_| self.even()).sum::<f64>() - 6.0
