@@ -53,31 +53,22 @@ fn settled(rated: [f64; 2], droop: [f64; 2], load: f64) -> (f64, [f64; 2]) {
     (plant.speed(0), acting)
 }
 
-/// Equal droops, unequal sets: each carries the same share of its rated torque, and the speed is down by the droop of
-/// that share.
+/// Sets share the load as their rated torques over their droops, and the speed is down by the droop of that share:
+/// unequal sets of equal droops, equal sets of unequal ones, and an isochronous set, which takes what the other leaves.
 #[test]
-fn equal_droops_give_equal_shares() {
-    for share in [0.25, 0.6, 1.0] {
-        let rated = [1000.0, 2500.0];
-        let (speed, torques) = settled(rated, [0.04, 0.04], share * 3500.0);
+fn droops_share_the_load() {
+    for (rated, droop, load, down, shares) in [
+        ([1000.0, 2500.0], [0.04, 0.04], 875.0, 0.01, [0.25; 2]),
+        ([1000.0, 2500.0], [0.04, 0.04], 2100.0, 0.024, [0.6; 2]),
+        ([1000.0, 2500.0], [0.04, 0.04], 3500.0, 0.04, [1.0; 2]),
+        ([1000.0, 1000.0], [0.02, 0.04], 900.0, 0.012, [0.6, 0.3]),
+        ([1000.0, 1000.0], [0.0, 0.04], 700.0, 0.0, [0.7, 0.0]),
+    ] {
+        let (speed, torques) = settled(rated, droop, load);
         // Settled to what a minute leaves of an exponential of seconds.
-        assert!((speed / SPEED - (1.0 - 0.04 * share)).abs() < 1e-6, "{speed}");
-        for (torque, rated) in torques.iter().zip(rated) {
+        assert!((speed / SPEED - (1.0 - down)).abs() < 1e-6, "{speed}");
+        for ((torque, rated), share) in torques.iter().zip(rated).zip(shares) {
             assert!((torque / rated - share).abs() < 1e-4, "{torque} of {rated}");
         }
     }
-}
-
-/// Unequal droops: shares as their inverses.
-#[test]
-fn unequal_droops_share_as_their_inverses() {
-    let (_, [a, b]) = settled([1000.0, 1000.0], [0.02, 0.04], 900.0);
-    assert!((a / b - 2.0).abs() < 1e-3, "{a} {b}");
-}
-
-/// One isochronous set beside one with droop keeps the speed and takes what the other leaves.
-#[test]
-fn an_isochronous_set_takes_the_rest() {
-    let (speed, [a, b]) = settled([1000.0, 1000.0], [0.0, 0.04], 700.0);
-    assert!((speed / SPEED - 1.0).abs() < 1e-6 && (a - 700.0).abs() < 0.5 && b.abs() < 0.5, "{speed} {a} {b}");
 }
