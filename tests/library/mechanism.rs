@@ -1,8 +1,7 @@
 //! The observer of a cranked machine against a motion of own arithmetic: a press whose inertia at the motor swings by a
 //! third.
 //!
-//! The inertia of the truth is the full solver's, the motion a Runge-Kutta integration of
-//! `J w' = tau_m - tau_L - J' w^2/2` with twenty steps a tick, whose own error (fifth order, 5e-6 s) is far below a
+//! The inertia of the truth is the full solver's, the motion a Runge-Kutta integration, whose own error is far below a
 //! count of the encoder.
 
 mod balanced;
@@ -18,58 +17,28 @@ use driveline::machine::{CrankSlider, DrivenMechanism, Inertia, Length, Mass, Me
 use driveline::number::{Fixed, Number};
 use driveline::observer::{MechanismConfig, MechanismObserver, Observer, RigidConfig, RigidObserver};
 use driveline::settings::Bases;
-use driveline_solver::plant::train::Crank;
+use driveline_solver::plant::train::Orders;
 
-use crate::runge_kutta;
+use self::rig::{Drawn, Machine};
 
 const RATE_HZ: u32 = 10_000;
 const RAM: CrankSlider = CrankSlider::massless_rod(Length(0.1), Length(0.5), Inertia(4.0), Mass(4_000.0));
-/// A small flywheel, so that the inertia swings: 0.5 to 0.8 kg m2 at the motor.
-const PRESS: DrivenMechanism = DrivenMechanism::new(Inertia(0.5), &Mechanism::slider_crank(&RAM), 1, 11);
+/// A small flywheel, so that the inertia swings: 0.54 to 0.96 kg m2 at the motor.
+const PRESS: DrivenMechanism = DrivenMechanism::new(Inertia(0.5), &Mechanism::slider_crank(&RAM), 1, 10);
 const USUAL: Disturbance = Disturbance { torque_accuracy: 1.0, load_torque_step: 60.0, within: 0.05 };
 const DESIGN: MechanismDesign = PRESS.observer(Rate::hz(RATE_HZ), Encoder::lines(2048), USUAL);
 const MEAN: RigidDesign =
     Rigid::new(Inertia(PRESS.mean_inertia())).observer(Rate::hz(RATE_HZ), Encoder::lines(2048), USUAL);
 const BASES: Bases = Bases::rigid(1_200.0, 200.0);
 
-/// The press as the truth has it.
-struct Press {
-    crank: Crank,
-    angle: f64,
-    speed: f64,
-    load: f64,
-}
-
-impl Press {
-    fn new(speed: f64) -> Self {
-        Press { crank: Crank::new(0.1, 0.5, 4_000.0), angle: 0.0, speed, load: 0.0 }
-    }
-
-    /// Acceleration of the motor.
-    fn acceleration(&self, angle: f64, speed: f64, torque: f64) -> f64 {
-        let (inertia, slope) = self.crank.inertia(angle / 11.0);
-        let (inertia, slope) = (0.5 + (4.0 + inertia) / 121.0, slope / 1331.0);
-        (torque - self.load - 0.5 * slope * speed * speed) / inertia
-    }
-
-    fn tick(&mut self, torque: f64) {
-        let h = 1.0 / f64::from(RATE_HZ) / 20.0;
-        for _ in 0..20 {
-            let rates = |[angle, speed]: [f64; 2]| [speed, self.acceleration(angle, speed, torque)];
-            [self.angle, self.speed] = runge_kutta::step([self.angle, self.speed], h, rates);
-        }
-    }
-
-    /// What an encoder of 2048 lines shows (2^-32 turn).
-    fn seen(&self) -> u32 {
-        let counts = (self.angle / TAU * 8192.0).round() as i64;
-        ((counts as u64) << 19) as u32
-    }
-
-    /// Torque behind the constant inertia: what the motor gives less what that inertia takes.
-    fn shaft(&self, torque: f64) -> f64 {
-        torque - 0.5 * self.acceleration(self.angle, self.speed, torque)
-    }
+/// The press as the truth has it, at 100 rad/s.
+fn press() -> Machine {
+    let reach = |phi: f64| (0.25 - (0.1 * phi.sin()).powi(2)).sqrt();
+    let way = Orders::sampled(|phi| 0.6 - 0.1 * phi.cos() - reach(phi));
+    let (mechanism, inertia) = (Mechanism::slider_crank(&RAM), Orders::inertia(&[(4_000.0, &way)]));
+    let mut press = Machine::new(&Drawn { mechanism, inertia, way }, 0.0, 0.0);
+    (press.constant, press.speed) = (0.5 + 4.0 / 100.0, 100.0);
+    press
 }
 
 /// Root mean square errors of load torque and shaft torque (N m) and of speed (rad/s) over a second in which the motor
@@ -77,7 +46,7 @@ impl Press {
 /// left out.
 fn errors<N: Number, O: Observer<N>>(config: &O::Config, bases: Bases) -> [f64; 3] {
     let Bases { torque: torque_base, speed: speed_base, .. } = bases;
-    let mut press = Press::new(100.0);
+    let mut press = press();
     let number = |value: f64| {
         N::from_word(if N::ONE.to_word() == 1.0_f32.to_bits() {
             (value as f32).to_bits()
@@ -88,18 +57,23 @@ fn errors<N: Number, O: Observer<N>>(config: &O::Config, bases: Bases) -> [f64; 
     let mut observer = O::steady(config, 0, number(0.0), number(100.0 / speed_base));
     let (mut squares, mut count) = ([0.0; 3], 0.0);
     for tick in 0..2 * RATE_HZ {
-        let crank = (press.angle / 11.0).rem_euclid(TAU);
+        let crank = (press.angle / 10.0).rem_euclid(TAU);
         // Half a sine over an eighth of a turn, 150 N m at the motor.
         press.load = if (2.0..2.0 + TAU / 8.0).contains(&crank) { 150.0 * ((crank - 2.0) * 4.0).sin() } else { 10.0 };
         let torque = 10.0 + 2.0 * (100.0 - press.speed);
         let torque = torque.clamp(-200.0, 200.0);
-        press.tick(torque);
-        observer.step(config, press.seen(), number(torque / torque_base));
+        press.tick(torque, 1.0 / f64::from(RATE_HZ));
+        let counts = (press.angle / TAU * 8192.0).round() as i64;
+        observer.step(config, (counts << 19) as u32, number(torque / torque_base));
         if tick >= RATE_HZ {
             let estimate = observer.estimate(config);
+            let [inertia, slope, _] = press.at(press.angle);
+            let taken = 0.5 * slope * press.speed * press.speed + press.load;
+            // what the motor gives less what the constant inertia takes
+            let shaft = torque - 0.5 * (torque - taken) / inertia;
             let real = |value: N, base: f64| value.to_real() * base;
             squares[0] += (real(estimate.load_torque, torque_base) - press.load).powi(2);
-            squares[1] += (real(estimate.shaft_torque, torque_base) - press.shaft(torque)).powi(2);
+            squares[1] += (real(estimate.shaft_torque, torque_base) - shaft).powi(2);
             squares[2] += (real(estimate.load_speed, speed_base) - press.speed).powi(2);
             count += 1.0;
         }
@@ -142,8 +116,8 @@ fn the_crank_stays_known_through_a_brake_and_a_restart() {
         let angle = (step * (1 << 32) / 20) as u32;
         observer.restart(&config, angle, 5.0, 0.0);
     }
-    // A quarter of a turn and 3/11, to the resolution of 2^-26 turns and the twentieths' rounding.
-    let expected = 0.25 + 3.0 / 11.0;
+    // A quarter of a turn and 3/10, to the resolution of 2^-26 turns and the twentieths' rounding.
+    let expected = 0.25 + 3.0 / 10.0;
     let seen = f64::from(observer.crank_angle(&config)) / 4_294_967_296.0;
     assert!((seen - expected).abs() < 4.0 / f64::from(1 << 26), "{seen} {expected}");
 }
@@ -184,9 +158,9 @@ fn machines_that_cannot_be_are_refused() {
 fn a_table_beyond_its_number_is_refused() {
     let ram = |mass: f64| CrankSlider::massless_rod(Length(0.1), Length(0.5), Inertia(0.0), Mass(mass));
     // at the dead centre nothing is left but 1e-40 kg m2: less than the least `f32`, of a mean of 0.2
-    let light = DrivenMechanism::new(Inertia(1e-40), &Mechanism::slider_crank(&ram(4_000.0)), 1, 11);
+    let light = DrivenMechanism::new(Inertia(1e-40), &Mechanism::slider_crank(&ram(4_000.0)), 1, 10);
     // an inertia that swings by a tenth, and a torque of more than 1e39 N m at a speed of 1 rad/s
-    let heavy = DrivenMechanism::new(Inertia(1e42), &Mechanism::slider_crank(&ram(1e45)), 1, 11);
+    let heavy = DrivenMechanism::new(Inertia(1e42), &Mechanism::slider_crank(&ram(1e45)), 1, 10);
     for (machine, word) in [(light, "swings too far"), (heavy, "inertia torque is too large")] {
         let design = MechanismDesign { machine, ..DESIGN };
         let error = MechanismConfig::<f32>::try_new(&design, Bases::SI).unwrap_err();
