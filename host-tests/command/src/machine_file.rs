@@ -125,7 +125,7 @@ pub use excitation::{Excitation, Running};
 pub use quantity::Quantity;
 pub use read::{LARGEST, not_toml, parse, parse_for_modes, read, text};
 pub use rotor::{Balancing, RotorFile, parse_rotor, read_rotor};
-pub use source::{Source, printable};
+pub use source::{Source, printable, slug};
 pub use table::{Item, Table};
 pub use train::{PinForces, TrainFile, is_train, parse_train, parse_train_for_modes, read_train};
 
@@ -308,17 +308,9 @@ pub struct Duty {
 }
 
 impl MachineFile {
-    /// The name as part of a file name: lower case, `-` for everything but letters and digits.
-    pub fn slug(&self) -> String {
-        let letter = |c: char| {
-            if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' }
-        };
-        self.name.chars().map(letter).collect()
-    }
-
     /// The name as a Rust constant: upper case, `_` for everything but letters and digits.
     pub fn constant(&self) -> String {
-        let name = self.slug().replace('-', "_").to_ascii_uppercase();
+        let name = slug(&self.name).replace('-', "_").to_ascii_uppercase();
         if name.starts_with(|c: char| c.is_ascii_digit()) { format!("MACHINE_{name}") } else { name }
     }
 }

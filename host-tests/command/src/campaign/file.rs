@@ -7,9 +7,9 @@ use driveline_solver::plant::train::{Coordinate, Link, RigidGear, Source, Train}
 use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft, Start};
 
 use super::file_drive::{FileObserver, start};
-use crate::machine_file::MachineFile;
 use crate::machine_file::designs::{BRANCHES, Designs, NO_SHAFT};
 use crate::machine_file::train::too_stiff;
+use crate::machine_file::{MachineFile, slug};
 use driveline_closed_loop::departure::Departure;
 use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::scenario::{Action, Machine, Scenario};
@@ -84,7 +84,7 @@ impl FileCase {
         let shafts = machine.chain.shafts();
         let softest = shafts.iter().enumerate().min_by(|a, b| a.1.stiffness.total_cmp(&b.1.stiffness));
         let shaft = softest.map_or(0, |(shaft, _)| shaft);
-        let case = Self { name: machine.slug(), machine, designs, times: [settled, off, slower, end], shaft };
+        let case = Self { name: slug(&machine.name), machine, designs, times: [settled, off, slower, end], shaft };
         if !case.machine.dampers.is_empty() {
             let nominal = case.plant(&Departure::NONE).map_err(|error| error.to_string())?;
             if let Some((place, found, expected)) = nominal.motion().and_then(|motion| too_stiff(motion, end)) {

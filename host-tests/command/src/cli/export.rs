@@ -18,7 +18,7 @@ use super::project::{Number, PartOptions, Project, is_free, name_of_c, write};
 use super::results::{Destination, check_writable};
 use super::setup::install;
 use super::{Failure, say, say_json};
-use crate::machine_file::{parse, text};
+use crate::machine_file::{parse, slug, text};
 
 /// Write a machine's drive as a static library for C and C++, or drive or machine as an FMU.
 ///
@@ -84,7 +84,7 @@ enum NumberName {
 pub fn controller(file: &Path) -> Result<Vec<u8>, Failure> {
     let (place, source) = text(file, "a machine file")?;
     let machine = parse(&place, &source)?;
-    let name = format!("{}-controller", machine.slug());
+    let name = format!("{}-controller", slug(&machine.name));
     let project = Project::of(&machine, &name, Number::Single, &PartOptions::default())?.robust()?;
     name_of_c(&project.krate)?;
     Ok(fmu::fmu(&project, &source, Of::Controller)?.0)
@@ -108,11 +108,11 @@ impl Export {
             Some(NumberName::F32) => Number::Single,
             Some(NumberName::Fixed) => Number::Fixed,
         };
-        let slug = match self.form {
-            Form::C => machine.slug(),
-            Form::Fmu => format!("{}-{}", machine.slug(), self.of().name()),
+        let usual = match self.form {
+            Form::C => slug(&machine.name),
+            Form::Fmu => format!("{}-{}", slug(&machine.name), self.of().name()),
         };
-        let project = Project::of(&machine, self.name.as_deref().unwrap_or(&slug), number, &self.parts)?;
+        let project = Project::of(&machine, self.name.as_deref().unwrap_or(&usual), number, &self.parts)?;
         name_of_c(&project.krate)?;
         match self.form {
             Form::C => self.library(&project.robust()?, &source, core, number),

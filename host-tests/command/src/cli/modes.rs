@@ -25,7 +25,7 @@ use train::TrainVibration;
 
 use super::results::{Destination, check};
 use super::{Failure, Progress, say, say_json};
-use crate::machine_file::{is_train, parse_for_modes, parse_train_for_modes, text};
+use crate::machine_file::{is_train, parse_for_modes, parse_train_for_modes, slug, text};
 use driveline_report::Section;
 
 /// Find natural frequencies and shapes of a machine, its two-mass reductions, and the sensitivity to each part.
@@ -61,21 +61,21 @@ impl Modes {
         if is_train(&text) {
             let file = parse_train_for_modes(&name, &text)?;
             let vibration = Progress::during(|| TrainVibration::of(&file), &format!("{name}: finding the modes"))?;
-            return self.show(&file.slug(), || vibration.page(&file), &vibration, vibration.tables());
+            return self.show(&file.name, || vibration.page(&file), &vibration, vibration.tables());
         }
         let machine = parse_for_modes(&name, &text)?;
         let vibration = Progress::during(|| Vibration::of(&machine), &format!("{name}: finding the modes"))?;
-        self.show(&machine.slug(), || page(&machine, &vibration), &vibration, tables(&vibration))
+        self.show(&machine.name, || page(&machine, &vibration), &vibration, tables(&vibration))
     }
 
     fn show(
         &self,
-        slug: &str,
+        name: &str,
         page: impl FnOnce() -> String,
         vibration: &impl serde::Serialize,
         tables: Vec<Section>,
     ) -> Result<(), Failure> {
-        let file = Destination::page_unless(self.json, self.html.as_deref(), &format!("{slug}-modes"));
+        let file = Destination::page_unless(self.json, self.html.as_deref(), &format!("{}-modes", slug(name)));
         check(&[&self.file], &file)?;
         if self.json {
             say_json(vibration)?;

@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use super::results::{Destination, check};
 use super::{Failure, Progress, say, say_json};
-use crate::machine_file::{RotorFile, read_rotor};
+use crate::machine_file::{RotorFile, read_rotor, slug};
 use driveline_report::chart::{Curve, Lines};
 use driveline_report::format::{percent, significant};
 use driveline_report::{Fact, Figure, Key, Section, Sheet, Table};
@@ -80,7 +80,7 @@ impl Rotor {
     pub fn execute(&self) -> Result<(), Failure> {
         let place = self.file.display();
         let rotor = Progress::during(|| read_rotor(&self.file), &format!("{place}: critical speeds"))?;
-        let file = Destination::page_unless(self.json, self.html.as_deref(), &format!("{}-rotor", rotor.slug()));
+        let file = Destination::page_unless(self.json, self.html.as_deref(), &format!("{}-rotor", slug(&rotor.name)));
         check(&[&self.file], &file)?;
         let (found, responses) =
             Progress::during(|| self.found(&rotor), &format!("{place}: whirls and vibration over the speed"))?;

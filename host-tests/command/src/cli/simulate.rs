@@ -10,7 +10,7 @@ use clap::Args;
 
 use super::results::{Destination, all, check};
 use super::{Failure, Progress, say, say_json};
-use crate::machine_file::{TrainFile, read_train};
+use crate::machine_file::{TrainFile, read_train, slug};
 use driveline_report::chart::{Line, over_time};
 use driveline_report::format::significant;
 use driveline_report::{Fact, Figure, Key, Section, Sheet, Table};
@@ -56,7 +56,7 @@ impl Simulate {
     /// A file with a fault; a run that is not proven; a result that cannot be written.
     pub fn execute(&self) -> Result<(), Failure> {
         let file = read_train(&self.file)?;
-        let name = format!("{}-simulation", file.slug());
+        let name = format!("{}-simulation", slug(&file.name));
         let sheet = Destination::page_unless(self.json, self.html.as_deref(), &name);
         let csv = self.csv.as_deref().map(|path| Destination::chosen("table", path));
         check(&[&self.file], csv.iter().chain(&sheet))?;

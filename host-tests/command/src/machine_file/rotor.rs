@@ -114,15 +114,6 @@ impl RotorFile {
         }
         all
     }
-
-    /// The name as part of a file name: lower case, `-` for everything but letters and digits.
-    #[must_use]
-    pub fn slug(&self) -> String {
-        let letter = |c: char| {
-            if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' }
-        };
-        self.name.chars().map(letter).collect()
-    }
 }
 
 /// Reads a rotor from a file.

@@ -74,6 +74,11 @@ impl<'a> Source<'a> {
     }
 }
 
+/// A name as part of a file name: lower case, `-` for everything but letters and digits.
+pub fn slug(name: &str) -> String {
+    name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' }).collect()
+}
+
 /// A text fit for a terminal: each control character as one `?`-like mark, cut with an ellipsis at `longest`
 /// characters.
 pub fn printable(text: &str, longest: usize) -> String {

@@ -137,16 +137,6 @@ pub struct TrainFile {
     pub too_stiff: Option<Diagnostic>,
 }
 
-impl TrainFile {
-    /// The name as part of a file name: lower case, `-` for everything but letters and digits.
-    pub fn slug(&self) -> String {
-        let letter = |c: char| {
-            if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' }
-        };
-        self.name.chars().map(letter).collect()
-    }
-}
-
 /// Whether a text holds coordinates and links, and not elements. A text that is not TOML holds neither.
 pub fn is_train(text: &str) -> bool {
     let is_own = |name: &str| name == "coordinate" || name == "spur_pair";

@@ -10,6 +10,7 @@ use super::{Fault, amplitudes, outcome, page, said};
 use crate::cli::results::{Destination, check};
 use crate::cli::{Failure, say, say_json};
 use crate::machine_file::balance::{BalanceFile, Measured, read};
+use crate::machine_file::slug;
 
 /// Find correction weights from the readings of a rotor's runs, the predicted residual, and the grade; the page has
 /// polar plots.
@@ -62,9 +63,8 @@ impl Balance {
         said: &str,
         page: impl FnOnce() -> Sheet,
     ) -> Result<(), Failure> {
-        let slug: String =
-            file.name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' }).collect();
-        let file = Destination::page_unless(self.json, self.html.as_deref(), &format!("{slug}-balancing"));
+        let name = format!("{}-balancing", slug(&file.name));
+        let file = Destination::page_unless(self.json, self.html.as_deref(), &name);
         check(&[&self.file], &file)?;
         if self.json {
             say_json(outcome)?;
