@@ -38,9 +38,14 @@ impl<'a> Table<'a> {
         if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
     }
 
-    fn get(&mut self, key: &'static str) -> Option<&'a Spanned<DeValue<'a>>> {
+    fn find(&self, key: &str) -> Option<Item<'a>> {
+        let (_, value) = self.table.iter().find(|(name, _)| name.get_ref() == key)?;
+        Some(Item { source: self.source, path: self.name(key), value })
+    }
+
+    fn get(&mut self, key: &'static str) -> Option<Item<'a>> {
         self.asked.push(key);
-        self.table.iter().find(|(name, _)| name.get_ref() == key).map(|(_, value)| value)
+        self.find(key)
     }
 
     fn missing(&self, key: &str, expected: impl std::fmt::Display) -> Diagnostic {
@@ -49,40 +54,25 @@ impl<'a> Table<'a> {
 
     /// The diagnostic for a key's value that is not what was expected.
     pub fn wrong(&self, key: &str, expected: impl Into<String>) -> Diagnostic {
-        match self.table.iter().find(|(name, _)| name.get_ref() == key) {
-            Some((_, value)) => {
-                Diagnostic::at(self.source, value.span(), self.name(key), describe(value.get_ref()), expected)
-            }
+        match self.find(key) {
+            Some(item) => item.wrong(expected),
             None => self.missing(key, expected.into()),
         }
     }
 
     /// A number that must be there.
     pub fn number(&mut self, key: &'static str, quantity: Quantity) -> Result<f64, Diagnostic> {
-        match self.get(key) {
-            Some(value) => self.in_range(key, value, quantity),
-            None => Err(self.missing(key, quantity)),
-        }
+        self.number_if(key, quantity)?.ok_or_else(|| self.missing(key, quantity))
     }
 
     /// A number with a default where the key is missing.
     pub fn number_or(&mut self, key: &'static str, quantity: Quantity, default: f64) -> Result<f64, Diagnostic> {
-        match self.get(key) {
-            Some(value) => self.in_range(key, value, quantity),
-            None => Ok(default),
-        }
-    }
-
-    fn in_range(&self, key: &str, value: &Spanned<DeValue<'_>>, quantity: Quantity) -> Result<f64, Diagnostic> {
-        number(value.get_ref())
-            .filter(|&number| quantity.allows(number))
-            .ok_or_else(|| self.wrong(key, quantity.to_string()))
+        Ok(self.number_if(key, quantity)?.unwrap_or(default))
     }
 
     /// A number that may be left out.
     pub fn number_if(&mut self, key: &'static str, quantity: Quantity) -> Result<Option<f64>, Diagnostic> {
-        let Some(value) = self.get(key) else { return Ok(None) };
-        self.in_range(key, value, quantity).map(Some)
+        self.get(key).map(|item| item.number(quantity)).transpose()
     }
 
     /// A number, or a list of two, where the key is there.
@@ -91,57 +81,39 @@ impl<'a> Table<'a> {
         key: &'static str,
         expected: &str,
     ) -> Result<Option<(f64, Option<f64>)>, Diagnostic> {
-        let Some(value) = self.get(key) else { return Ok(None) };
+        let Some(item) = self.get(key) else { return Ok(None) };
         let one = |value: &DeValue<'_>| number(value).filter(|number| number.is_finite());
-        let pair = value.get_ref().as_array().filter(|list| list.len() == 2);
+        let pair = item.value.get_ref().as_array().filter(|list| list.len() == 2);
         let read = match pair {
             Some(list) => one(list[0].get_ref()).zip(one(list[1].get_ref())).map(|(low, high)| (low, Some(high))),
-            None => one(value.get_ref()).map(|number| (number, None)),
+            None => one(item.value.get_ref()).map(|number| (number, None)),
         };
-        read.map(Some).ok_or_else(|| self.wrong(key, expected))
+        read.map(Some).ok_or_else(|| item.wrong(expected))
     }
 
     /// A table that may be left out.
     pub fn table_if(&mut self, key: &'static str) -> Result<Option<Table<'a>>, Diagnostic> {
-        if self.has(key) {
-            return self.table(key).map(Some);
-        }
-        self.asked.push(key);
-        Ok(None)
+        self.get(key).map(|item| item.table(&format!("a table [{key}]"))).transpose()
     }
 
     /// A list of tables that may be left out.
     pub fn tables_if(&mut self, key: &'static str, of: &str) -> Result<Vec<(Range<usize>, Table<'a>)>, Diagnostic> {
-        if self.has(key) {
-            return self.tables_of(key, of);
-        }
-        self.asked.push(key);
-        Ok(Vec::new())
+        if self.has(key) { self.tables_of(key, of) } else { Ok(Vec::new()) }
     }
 
     /// A text that must be there.
     pub fn text(&mut self, key: &'static str, expected: &str) -> Result<&'a str, Diagnostic> {
-        match self.get(key) {
-            Some(value) => value.get_ref().as_str().ok_or_else(|| self.wrong(key, expected)),
-            None => Err(self.missing(key, expected)),
-        }
+        self.text_if(key, expected)?.ok_or_else(|| self.missing(key, expected))
     }
 
     /// A text that may be left out.
     pub fn text_if(&mut self, key: &'static str, expected: &str) -> Result<Option<&'a str>, Diagnostic> {
-        let Some(value) = self.get(key) else { return Ok(None) };
-        value.get_ref().as_str().map(Some).ok_or_else(|| self.wrong(key, expected))
+        self.get(key).map(|item| item.text(expected)).transpose()
     }
 
     /// A table that must be there.
     pub fn table(&mut self, key: &'static str) -> Result<Table<'a>, Diagnostic> {
-        let expected = format!("a table [{key}]");
-        let Some(value) = self.get(key) else {
-            return Err(self.missing(key, expected));
-        };
-        let table = value.get_ref().as_table().ok_or_else(|| self.wrong(key, expected))?;
-        let (source, path) = (self.source, self.name(key));
-        Ok(Table { source, table, place: value.span(), path, asked: Vec::new() })
+        self.table_if(key)?.ok_or_else(|| self.missing(key, format!("a table [{key}]")))
     }
 
     /// A list of tables that must be there: each with the span of its heading.
@@ -152,19 +124,8 @@ impl<'a> Table<'a> {
     /// A list of tables that must be there, one for each of something.
     pub fn tables_of(&mut self, key: &'static str, of: &str) -> Result<Vec<(Range<usize>, Table<'a>)>, Diagnostic> {
         let expected = format!("one table [[{key}]] for each {of}");
-        let Some(value) = self.get(key) else {
-            return Err(self.missing(key, expected));
-        };
-        let list = value.get_ref().as_array().filter(|list| !list.is_empty());
-        let list = list.ok_or_else(|| self.wrong(key, expected.clone()))?;
-        let read = |(index, item): (usize, &'a Spanned<DeValue<'a>>)| {
-            let path = self.name(&format!("{key}[{index}]"));
-            let Some(table) = item.get_ref().as_table() else {
-                return Err(Diagnostic::at(self.source, item.span(), path, describe(item.get_ref()), expected.clone()));
-            };
-            Ok((item.span(), Table { source: self.source, table, place: item.span(), path, asked: Vec::new() }))
-        };
-        list.iter().enumerate().map(read).collect()
+        let placed = |table: Table<'a>| (table.place(), table);
+        self.filled(key, &expected)?.into_iter().map(|item| item.table(&expected).map(placed)).collect()
     }
 
     /// Whether a key is there; it counts as requested.
@@ -189,19 +150,15 @@ impl<'a> Table<'a> {
 
     /// A truth with a default where the key is missing.
     pub fn flag_or(&mut self, key: &'static str, default: bool) -> Result<bool, Diagnostic> {
-        let Some(value) = self.get(key) else { return Ok(default) };
-        match value.get_ref() {
-            DeValue::Boolean(truth) => Ok(*truth),
-            _ => Err(self.wrong(key, "true or false")),
-        }
+        let Some(item) = self.get(key) else { return Ok(default) };
+        item.value.get_ref().as_bool().ok_or_else(|| item.wrong("true or false"))
     }
 
     /// A list of exactly `count` texts.
     pub fn texts(&mut self, key: &'static str, count: usize, expected: &str) -> Result<Vec<&'a str>, Diagnostic> {
-        let Some(value) = self.get(key) else { return Err(self.missing(key, expected)) };
-        let list = value.get_ref().as_array().filter(|list| list.len() == count);
-        let texts = list.and_then(|list| list.iter().map(|item| item.get_ref().as_str()).collect());
-        texts.ok_or_else(|| self.wrong(key, expected))
+        let items = self.items(key, expected)?;
+        let texts: Option<Vec<_>> = items.iter().map(|item| item.value.get_ref().as_str()).collect();
+        texts.filter(|texts| texts.len() == count).ok_or_else(|| self.wrong(key, expected))
     }
 
     /// A list of rows of `width` numbers each.
@@ -209,21 +166,13 @@ impl<'a> Table<'a> {
     /// # Errors
     /// Missing, empty, or a row that is not of so many finite numbers: placed at that row.
     pub fn rows(&mut self, key: &'static str, width: usize, expected: &str) -> Result<Vec<Vec<f64>>, Diagnostic> {
-        let Some(value) = self.get(key) else { return Err(self.missing(key, expected)) };
-        let list = value.get_ref().as_array().filter(|list| !list.is_empty());
-        let list = list.ok_or_else(|| self.wrong(key, expected))?;
-        let mut rows = Vec::new();
-        for (index, item) in list.iter().enumerate() {
-            let row = item.get_ref().as_array().filter(|row| row.len() == width);
+        let read = |item: Item<'a>| {
+            let row = item.value.get_ref().as_array().filter(|row| row.len() == width);
             let numbers: Option<Vec<f64>> =
                 row.and_then(|row| row.iter().map(|v| number(v.get_ref()).filter(|n| n.is_finite())).collect());
-            let Some(numbers) = numbers else {
-                let path = self.name(&format!("{key}[{index}]"));
-                return Err(Diagnostic::at(self.source, item.span(), path, describe(item.get_ref()), expected));
-            };
-            rows.push(numbers);
-        }
-        Ok(rows)
+            numbers.ok_or_else(|| item.wrong(expected))
+        };
+        self.filled(key, expected)?.into_iter().map(read).collect()
     }
 
     /// Two numbers.
@@ -237,17 +186,8 @@ impl<'a> Table<'a> {
     /// # Errors
     /// Missing, empty, or a number that is not of the quantity's range: placed at that number.
     pub fn numbers(&mut self, key: &'static str, quantity: Quantity) -> Result<Vec<f64>, Diagnostic> {
-        let expected = format!("a list of numbers, each {quantity}");
-        let Some(value) = self.get(key) else { return Err(self.missing(key, expected)) };
-        let list = value.get_ref().as_array().filter(|list| !list.is_empty());
-        let list = list.ok_or_else(|| self.wrong(key, expected))?;
-        let read = |(index, item): (usize, &Spanned<DeValue<'_>>)| {
-            number(item.get_ref()).filter(|&n| quantity.allows(n)).ok_or_else(|| {
-                let path = self.name(&format!("{key}[{index}]"));
-                Diagnostic::at(self.source, item.span(), path, describe(item.get_ref()), quantity.to_string())
-            })
-        };
-        list.iter().enumerate().map(read).collect()
+        let items = self.filled(key, &format!("a list of numbers, each {quantity}"))?;
+        items.iter().map(|item| item.number(quantity)).collect()
     }
 
     /// A table of numbers, each under a name that `known` finds the place of.
@@ -261,60 +201,39 @@ impl<'a> Table<'a> {
         expected: &str,
         known: impl Fn(&str) -> Option<usize>,
     ) -> Result<Vec<(usize, f64)>, Diagnostic> {
-        let Some(value) = self.get(key) else { return Err(self.missing(key, expected)) };
-        let table = value.get_ref().as_table().filter(|table| !table.is_empty());
-        let table = table.ok_or_else(|| self.wrong(key, expected))?;
-        let mut shares = Vec::new();
-        for (name, item) in table.iter() {
-            let path = self.name(&format!("{key}.{}", printable(name.get_ref(), REPEATED)));
+        let Some(shares) = self.get(key) else { return Err(self.missing(key, expected)) };
+        let table = shares.value.get_ref().as_table().filter(|table| !table.is_empty());
+        let read = |(name, value): (&Spanned<DeString<'a>>, &'a Spanned<DeValue<'a>>)| {
+            let path = format!("{}.{}", shares.path, printable(name.get_ref(), REPEATED));
             let Some(at) = known(name.get_ref()) else {
                 return Err(Diagnostic::at(self.source, name.span(), path, "an unknown name", expected));
             };
-            let Some(share) = number(item.get_ref()).filter(|&n| quantity.allows(n) && n != 0.0) else {
-                let range = format!("{quantity}, not zero");
-                return Err(Diagnostic::at(self.source, item.span(), path, describe(item.get_ref()), range));
-            };
-            shares.push((at, share));
-        }
-        Ok(shares)
+            let share = number(value.get_ref()).filter(|&n| quantity.allows(n) && n != 0.0);
+            let item = Item { source: self.source, path, value };
+            share.map(|share| (at, share)).ok_or_else(|| item.wrong(format!("{quantity}, not zero")))
+        };
+        table.ok_or_else(|| shares.wrong(expected))?.iter().map(read).collect()
     }
 
     /// A list of values that must be there, each with its place.
     pub fn items(&mut self, key: &'static str, expected: &str) -> Result<Vec<Item<'a>>, Diagnostic> {
-        let Some(value) = self.get(key) else {
-            return Err(self.missing(key, expected));
-        };
+        let Some(Item { source, path, value }) = self.get(key) else { return Err(self.missing(key, expected)) };
         let list = value.get_ref().as_array().ok_or_else(|| self.wrong(key, expected))?;
-        let item = |(index, value): (usize, &'a Spanned<DeValue<'a>>)| Item {
-            source: self.source,
-            path: format!("{}[{index}]", self.name(key)),
-            value,
-        };
+        let item = |(index, value)| Item { source, path: format!("{path}[{index}]"), value };
         Ok(list.iter().enumerate().map(item).collect())
     }
 
-    /// A truth that must be there.
-    pub fn truth(&mut self, key: &'static str) -> Result<bool, Diagnostic> {
-        let expected = "true or false";
-        match self.get(key) {
-            Some(value) => value.get_ref().as_bool().ok_or_else(|| self.wrong(key, expected)),
-            None => Err(self.missing(key, expected)),
-        }
+    /// The same, of one value at least.
+    fn filled(&mut self, key: &'static str, expected: &str) -> Result<Vec<Item<'a>>, Diagnostic> {
+        let items = self.items(key, expected)?;
+        if items.is_empty() { Err(self.wrong(key, expected)) } else { Ok(items) }
     }
 
     /// A list of tables that may be left out.
     pub fn optional_tables(&mut self, key: &'static str) -> Result<Vec<Table<'a>>, Diagnostic> {
-        if !self.has(key) {
-            return Ok(Vec::new());
-        }
         let expected = format!("tables [[{key}]]");
-        let table = |item: Item<'a>| match item.value.get_ref().as_table() {
-            Some(table) => {
-                Ok(Table { source: item.source, table, place: item.value.span(), path: item.path, asked: Vec::new() })
-            }
-            None => Err(item.wrong(&expected)),
-        };
-        self.items(key, &expected)?.into_iter().map(table).collect()
+        let items = if self.has(key) { self.items(key, &expected)? } else { Vec::new() };
+        items.into_iter().map(|item| item.table(&expected)).collect()
     }
 
     /// Ends the reading: an unknown key is a fault.
@@ -348,7 +267,7 @@ pub struct Item<'a> {
 
 impl<'a> Item<'a> {
     /// The diagnostic for a value that is not what was expected.
-    pub fn wrong(&self, expected: &str) -> Diagnostic {
+    pub fn wrong(&self, expected: impl Into<String>) -> Diagnostic {
         Diagnostic::at(self.source, self.value.span(), self.path.clone(), describe(self.value.get_ref()), expected)
     }
 
@@ -356,7 +275,13 @@ impl<'a> Item<'a> {
     pub fn number(&self, quantity: Quantity) -> Result<f64, Diagnostic> {
         number(self.value.get_ref())
             .filter(|&number| quantity.allows(number))
-            .ok_or_else(|| self.wrong(&quantity.to_string()))
+            .ok_or_else(|| self.wrong(quantity.to_string()))
+    }
+
+    /// The value as a table.
+    fn table(self, expected: &str) -> Result<Table<'a>, Diagnostic> {
+        let table = self.value.get_ref().as_table().ok_or_else(|| self.wrong(expected))?;
+        Ok(Table { source: self.source, table, place: self.value.span(), path: self.path, asked: Vec::new() })
     }
 
     /// The value as a text.

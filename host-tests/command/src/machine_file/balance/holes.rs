@@ -54,10 +54,7 @@ pub(super) fn holes(
         return Err(table.wrong("weights", "one weight at least"));
     }
     let too_heavy = table.wrong("weights", format!("more: {}", Error::TooHeavy { plane }));
-    let removing = match table.has("removing") {
-        false => false,
-        true => table.truth("removing")?,
-    };
+    let removing = table.flag_or("removing", false)?;
     Ok(PlaneHoles {
         plane,
         degrees,

@@ -23,7 +23,7 @@ pub(super) fn pairs(
         return Err(table.wrong(key, missing));
     }
     if items.len() > count {
-        return Err(items[count].wrong(&format!("only {count} pairs, one for each")));
+        return Err(items[count].wrong(format!("only {count} pairs, one for each")));
     }
     let pair = |item: &Item<'_>| {
         let (amplitude, angle) = item.pair(Quantity::AMPLITUDE, Quantity::DEGREES, PAIR)?;
