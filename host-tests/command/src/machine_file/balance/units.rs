@@ -28,34 +28,25 @@ const OUNCE: f64 = 0.028_349_523_125;
 const INCH: f64 = 0.025_4;
 
 impl WeightUnit {
+    /// All, as they are written.
+    const ALL: [(&'static str, Self); 7] = [
+        ("g", Self::Gram),
+        ("kg", Self::Kilogram),
+        ("g mm", Self::GramMillimetre),
+        ("kg m", Self::KilogramMetre),
+        ("oz", Self::Ounce),
+        ("oz in", Self::OunceInch),
+        ("lb", Self::Pound),
+    ];
+
     /// As the file has it.
     pub(super) fn read(root: &mut Table<'_>) -> Result<Self, Diagnostic> {
-        choice(
-            root,
-            "weight_unit",
-            &[
-                ("g", Self::Gram),
-                ("kg", Self::Kilogram),
-                ("g mm", Self::GramMillimetre),
-                ("kg m", Self::KilogramMetre),
-                ("oz", Self::Ounce),
-                ("oz in", Self::OunceInch),
-                ("lb", Self::Pound),
-            ],
-        )
+        choice(root, "weight_unit", &Self::ALL)
     }
 
     /// As it is written.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Gram => "g",
-            Self::Kilogram => "kg",
-            Self::GramMillimetre => "g mm",
-            Self::KilogramMetre => "kg m",
-            Self::Ounce => "oz",
-            Self::OunceInch => "oz in",
-            Self::Pound => "lb",
-        }
+    pub fn name(self) -> &'static str {
+        Self::ALL.into_iter().find(|(_, unit)| *unit == self).map_or("", |(name, _)| name)
     }
 
     /// Unbalance of a weight of one (kg m); none where that takes a radius which is not given.
