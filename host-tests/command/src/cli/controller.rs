@@ -15,7 +15,7 @@ use crate::machine_file::designs::{Designs, Lack};
 use crate::machine_file::{DamperKind, DamperRing, MachineFile};
 
 /// The controller of a machine, in SI units at the motor.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Plan {
     /// The machine's name.
     pub name: String,
@@ -230,6 +230,20 @@ impl SpeedLoop {
 /// How far the speed loop is from instability.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Margins {
+    /// Over all crossings.
+    #[serde(flatten)]
+    pub least: LeastMargins,
+    /// Factors of the motor side's inertia that the loop of two masses tolerates, from and to; `null` where any.
+    pub motor_inertia: [Option<f64>; 2],
+    /// The same for the load side's inertia.
+    pub load_inertia: [Option<f64>; 2],
+    /// The same for the stiffness.
+    pub stiffness: [Option<f64>; 2],
+}
+
+/// The least of each margin, over crossings and over tolerances.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct LeastMargins {
     /// Factor by which the gain may grow; `null` where no growth destabilises.
     pub gain_up: Option<f64>,
     /// Factor by which the gain may shrink.
@@ -239,27 +253,6 @@ pub struct Margins {
     /// Dead time more that destabilises (s); `null` as well.
     pub delay: Option<f64>,
     /// Smallest distance of the response from -1.
-    pub modulus: f64,
-    /// Factors of the motor side's inertia that the loop of two masses tolerates, from and to; `null` where any.
-    pub motor_inertia: [Option<f64>; 2],
-    /// The same for the load side's inertia.
-    pub load_inertia: [Option<f64>; 2],
-    /// The same for the stiffness.
-    pub stiffness: [Option<f64>; 2],
-}
-
-/// The least of each margin over tolerances.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct LeastMargins {
-    /// As in [`Margins`].
-    pub gain_up: Option<f64>,
-    /// As in [`Margins`].
-    pub gain_down: f64,
-    /// As in [`Margins`].
-    pub phase: Option<f64>,
-    /// As in [`Margins`].
-    pub delay: Option<f64>,
-    /// As in [`Margins`].
     pub modulus: f64,
 }
 
@@ -280,23 +273,13 @@ fn finite(value: f64) -> Option<f64> {
 }
 
 impl Margins {
-    /// Those that [`LeastMargins`] has.
-    pub const fn least(&self) -> LeastMargins {
-        let Self { gain_up, gain_down, phase, delay, modulus, .. } = *self;
-        LeastMargins { gain_up, gain_down, phase, delay, modulus }
-    }
-
     fn of(machine: &MachineFile, two: &TwoMass, closed: &ClosedLoop) -> Result<Self, Error> {
         let plant = Plant::of_modes(two.total_inertia(), &machine.modes());
         let margins = closed.margins(&plant)?;
         let ranges = closed.ranges(two);
         let range = |[down, up]: [f64; 2]| [(down > 0.0).then_some(down), finite(up)];
         Ok(Self {
-            gain_up: finite(margins.gain_up),
-            gain_down: margins.gain_down,
-            phase: finite(margins.phase),
-            delay: finite(margins.delay),
-            modulus: margins.modulus,
+            least: LeastMargins::of(&margins),
             motor_inertia: range(ranges.motor_inertia),
             load_inertia: range(ranges.load_inertia),
             stiffness: range(ranges.stiffness),
@@ -454,8 +437,6 @@ impl Plan {
         Self {
             name: machine.name.clone(),
             need: machine.duty.map(|_| needed(&designs.nominal)),
-            dampers: None,
-            warnings: Vec::new(),
             predicted: Some(Predicted::of(machine, designs)),
             observer: "two-mass",
             rate_hz: machine.control.rate_hz,
@@ -477,6 +458,7 @@ impl Plan {
             spectral_radius: observer.spectral_radius,
             innovation: observer.innovation,
             speed_loop: Some(speed_loop),
+            ..Self::default()
         }
     }
 
@@ -484,19 +466,14 @@ impl Plan {
         let names = [("motor angle", "rad"), ("motor speed", "rad/s"), ("load torque", "N m")];
         Self {
             name: machine.name.clone(),
-            need: None,
-            predicted: None,
-            dampers: None,
-            warnings: Vec::new(),
             observer: "rigid",
             rate_hz: machine.control.rate_hz,
             inertias: vec![observer.machine.inertia],
-            shaft: None,
             states: states(&names, &observer.gains, &observer.standard_deviation),
             poles: poles(&observer.poles),
             spectral_radius: observer.spectral_radius,
             innovation: observer.innovation,
-            speed_loop: None,
+            ..Self::default()
         }
     }
 }

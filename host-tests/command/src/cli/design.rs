@@ -303,7 +303,7 @@ fn margins(margins: &Margins) -> String {
     };
     format!(
         "margins: {}\ntolerates, one at a time: motor inertia {}, load inertia {}, stiffness {}\n",
-        each(&margins.least()),
+        each(&margins.least),
         range(margins.motor_inertia),
         range(margins.load_inertia),
         range(margins.stiffness),

@@ -197,7 +197,7 @@ fn tables(plan: &Plan, responses: &Responses) -> Vec<Section> {
             significant(least.modulus),
         ]
     };
-    let nominal = governor.and_then(|governor| governor.margins.as_ref()).map(|margins| row(&margins.least()));
+    let nominal = governor.and_then(|governor| governor.margins.as_ref()).map(|margins| row(&margins.least));
     let least = governor.and_then(|governor| governor.least_margins.as_ref()).map(row);
     let mut margins =
         Table::new(["margins", "gain up, dB", "gain down, dB", "phase, °", "delay, ms", "distance from -1"]);
