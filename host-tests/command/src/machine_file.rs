@@ -132,11 +132,10 @@ pub use train::{PinForces, TrainFile, is_train, parse_train, parse_train_for_mod
 use class::Class;
 use driveline::machine::{Chain, Train};
 use factor::Tolerance;
-use serde::Serialize;
 use station::Long;
 
 /// A machine as its file describes it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct MachineFile {
     /// Name: letters, digits, `-`, `_` and spaces, at most 40.
     pub name: String,
@@ -157,77 +156,63 @@ pub struct MachineFile {
     pub ramp: Option<f64>,
     /// Its class, which tolerances that the file does not state come from.
     pub class: Class,
-    #[serde(skip)]
     pub tolerances: Vec<Tolerance>,
     /// The speeds it runs at, where the file says so.
     pub running: Option<Running>,
     pub excitations: Vec<Excitation>,
     /// Its piston engine, whose excitation is the last of them.
-    #[serde(skip)]
     pub engine: Option<Engine>,
-    #[serde(skip)]
     pub dampers: Vec<DamperRing>,
     /// How the machine is shaken, if the file says.
     pub duty: Option<Duty>,
     /// The elements as the library's chain, referred to the motor.
-    #[serde(skip)]
     pub chain: Chain,
     /// Branches on masses of the chain, or of branches before.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub branches: Vec<Branch>,
     /// Chain and branches as the library's train; none where there is no branch.
-    #[serde(skip)]
     pub train: Option<Train>,
     /// Chain and branches of a machine that the library's chain and train do not hold, which then carry that error.
-    #[serde(skip)]
     pub(crate) long: Option<Long>,
 }
 
 /// A chain of elements that stands on a mass.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Branch {
     /// Label of the element whose mass it stands on.
     pub at: String,
     /// The elements, away from that mass.
     pub elements: Vec<Part>,
     /// The elements as the library's chain, referred to that mass.
-    #[serde(skip)]
     pub chain: Chain,
     /// Index of that mass.
-    #[serde(skip)]
     pub node: usize,
     /// The motor's speed over that of the mass.
-    #[serde(skip)]
     pub ratio: f64,
     /// Index of the first mass that the branch adds to the machine.
-    #[serde(skip)]
     pub first: usize,
     /// Number of its masses, with the one it stands on.
-    #[serde(skip)]
     pub(crate) count: usize,
 }
 
 /// An element with the name that tables and plots give it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Part {
     /// Its label, or its kind, numbered from the second of a kind on.
     pub label: String,
-    #[serde(flatten)]
     pub element: Element,
 }
 
 /// The encoder on the motor.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Encoder {
     /// Lines on a turn; quadrature gives four counts a line.
     pub lines: u32,
     /// Its accuracy, where the file states one.
-    #[serde(skip_serializing_if = "Accuracy::is_none")]
     pub accuracy: Accuracy,
 }
 
 /// The accuracy of an encoder, as a data sheet states it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accuracy {
     /// Signal periods on a turn: the lines of its scale.
     pub signal_periods: u32,
@@ -249,14 +234,14 @@ impl Accuracy {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Control {
     /// Ticks a second.
     pub rate_hz: u32,
 }
 
 /// Disturbances for the observer.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Disturbance {
     /// Root mean square of the error of the motor's torque in one tick (N m).
     pub torque_accuracy: f64,
@@ -277,7 +262,7 @@ impl Disturbance {
 }
 
 /// Limits of the machine, at the motor.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Torque (N m).
     pub torque: f64,
@@ -288,7 +273,7 @@ pub struct Limits {
 }
 
 /// The motor's torque after its command.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Actuator {
     /// Dead time (s).
     pub delay: f64,
@@ -297,7 +282,7 @@ pub struct Actuator {
 }
 
 /// How the machine is shaken: what decides which observer it needs.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Duty {
     /// Largest change of torque that comes about at once, at the motor (N m).
     pub change: f64,

@@ -4,21 +4,16 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use driveline::design::{SpeedLoopTuning, Spread, Tolerance};
-use driveline::machine::{Damper, Member};
+use driveline::machine::Damper;
 
 use crate::machine_file::{Branch, DamperKind, DamperRing, Element, MachineFile, Part};
 
 /// The constants: the chain, its reduction, the observer's design and, for two masses, the speed loop's.
 pub fn rust(machine: &MachineFile) -> Result<String, String> {
     let name = machine.constant();
-    let mut words = words(machine);
     let rings = machine.rings();
     let is_train = !machine.branches.is_empty() || !rings.is_empty();
-    if is_train {
-        words.extend(["Train", "Ratio", "Inertia"]);
-    }
     let two = machine.with_dampers()?.two_masses().is_some();
-    words.extend(if two { ["Match", "TwoMass"].as_slice() } else { ["Rigid"].as_slice() });
     let designs = if two {
         "Disturbance, Encoder, Rate, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign"
     } else {
@@ -32,7 +27,9 @@ pub fn rust(machine: &MachineFile) -> Result<String, String> {
         let branch = written(elements, "        ");
         chain.push_str(&format!("\n.branch(\n    {node},\n    Ratio({ratio:?}),\n    {branch},\n)"));
     }
-    chain.push_str(&dampers(&rings, &mut words));
+    chain.push_str(&dampers(&rings));
+    let mut words = words(&chain);
+    words.extend(if two { ["Match", "TwoMass"].as_slice() } else { ["Rigid"].as_slice() });
     let kind = if is_train { "Train" } else { "Chain" };
     let (torque, step, within) =
         (machine.disturbance.torque_accuracy, machine.disturbance.load_torque_step, machine.disturbance.within);
@@ -93,15 +90,14 @@ pub const {name}_SPEED: f64 = {:?};
     Ok(text)
 }
 
-/// The calls that put rings on a train, each on a line of its own, and their words.
-pub(super) fn dampers(rings: &[(&DamperRing, Damper)], words: &mut BTreeSet<&'static str>) -> String {
+/// The calls that put rings on a train, each on a line of its own.
+pub(super) fn dampers(rings: &[(&DamperRing, Damper)]) -> String {
     let call = |(ring, Damper { inertia, stiffness, damping }): &(&DamperRing, Damper)| match ring.kind {
         // it sticks to its mass while the vibration is small
         DamperKind::Friction { .. } => {
             format!("\n.branch({}, Ratio(1.0), Chain::motor(Inertia({inertia:?})))", ring.mass)
         }
         _ => {
-            words.insert("Damper");
             let sizes = format!("inertia: {inertia:?}, stiffness: {stiffness:?}, damping: {damping:?}");
             format!("\n.damper({}, Ratio(1.0), Damper {{ {sizes} }})", ring.mass)
         }
@@ -109,14 +105,10 @@ pub(super) fn dampers(rings: &[(&DamperRing, Damper)], words: &mut BTreeSet<&'st
     rings.iter().map(call).collect()
 }
 
-/// The library's words that the elements are written with.
-pub(super) fn words(machine: &MachineFile) -> BTreeSet<&'static str> {
-    let branched = machine.branches.iter().flat_map(|branch| &branch.elements);
-    let parts = machine.elements.iter().chain(branched);
-    // a planetary set that loses more while the load drives is written with a worm behind it
-    let one_way = |element: &Element| matches!(element, Element::Planetary { efficiency, back_efficiency, .. } if efficiency != back_efficiency);
-    let ratio = parts.clone().any(|part| one_way(&part.element)).then_some("Ratio");
-    parts.flat_map(|part| words_of(&part.element)).copied().chain(["Chain"]).chain(ratio).collect()
+/// The library's words that a chain is written with: those with a capital, and of `Member::Sun` the first.
+pub(super) fn words(chain: &str) -> BTreeSet<&str> {
+    let paths = chain.split(|c: char| !(c.is_alphanumeric() || "_:".contains(c)));
+    paths.filter_map(|path| path.split(':').next()).filter(|word| word.starts_with(char::is_uppercase)).collect()
 }
 
 /// Whether the file names another bandwidth than the usual one.
@@ -171,30 +163,6 @@ pub(super) fn written(elements: &[Part], indent: &str) -> String {
         }
     }
     text
-}
-
-/// The library's words that an element is written with.
-const fn words_of(element: &Element) -> &'static [&'static str] {
-    match element {
-        Element::Motor { .. } | Element::Rotor { .. } | Element::Mechanism { .. } => &["Inertia"],
-        Element::Shaft { .. } => &["Stiffness", "Damping"],
-        Element::Gear { .. } => &["Ratio", "Efficiency"],
-        Element::Section { .. } => &["Section", "Length", "Diameter", "ShearModulus", "Damping"],
-        Element::Crank { .. } => &["CrankSlider", "Length", "Inertia", "Mass"],
-        Element::Worm { .. } => &["Ratio", "Efficiency"],
-        Element::Planetary { input: Member::Sun, held: Member::Ring, .. } => {
-            &["Planetary", "Inertia", "Mass", "Efficiency"]
-        }
-        Element::Planetary { .. } => &["Planetary", "PlanetaryGear", "Member", "Inertia", "Mass", "Efficiency"],
-        Element::Belt { .. } => &["Belt", "Diameter", "Stiffness", "LinearDamping", "Efficiency"],
-        Element::Screw { .. } | Element::Slack { .. } => &["Length"],
-        Element::Swinging { .. } => &["Mass", "Length"],
-        Element::Drum { .. } => &["Diameter"],
-        Element::Rope { damping: 0.0, .. } => &["Falls", "Stiffness"],
-        Element::Rope { .. } => &["Falls", "Stiffness", "LinearDamping"],
-        Element::Lifted { .. } | Element::Driven { .. } => &["Mass"],
-        Element::Backlash { .. } => &["Gap"],
-    }
 }
 
 /// The tolerances that the speed loop is tested with, where they are not the usual ones.

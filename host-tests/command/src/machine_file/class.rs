@@ -6,13 +6,11 @@
 use core::f64::consts::PI;
 
 use driveline::design::{Spread, Tolerance as Usual};
-use serde::Serialize;
 
 use super::factor::{Factor, Tolerance};
 
 /// A class of machines.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Class {
     /// By its drawings and data sheets, no more.
     #[default]

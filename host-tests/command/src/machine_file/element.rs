@@ -6,7 +6,6 @@ use driveline::machine::{
     Belt, Chain, CrankSlider, Damping, Diameter, Efficiency, Error, Falls, Gap, Inertia, Length, LinearDamping, Mass,
     Member, Planetary, PlanetaryGear, Ratio, Section, ShearModulus, Stiffness, try_stepped,
 };
-use serde::Serialize;
 
 use super::diagnostic::Diagnostic;
 use super::quantity::Quantity;
@@ -22,8 +21,7 @@ pub const KINDS: &str = "\"motor\", \"shaft\", \"section\", \"rotor\", \"crank\"
 const SIGNED_RATIO: &str = "a number, 1e-6 to 1e6, negative where the two turn against each other";
 
 /// One element of a machine, in SI units, each on its own shaft or along the travel of the load.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[serde(tag = "kind", rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Element {
     /// The motor's own rotor. Every machine begins with it.
     Motor {
@@ -66,22 +64,7 @@ pub enum Element {
         density: f64,
     },
     /// A crank drive on the present shaft, as the mean of its inertia.
-    Crank {
-        /// Inertia of the crank (kg m2).
-        inertia: f64,
-        /// Radius of the crank (m).
-        radius: f64,
-        /// Length of the rod (m).
-        rod: f64,
-        /// Mass of the rod (kg); 0 where the file is silent, as the next two.
-        rod_mass: f64,
-        /// Distance of the connecting rod's centre of mass from the crank pin (m).
-        rod_centre: f64,
-        /// Inertia of the connecting rod about its centre of mass (kg m2).
-        rod_inertia: f64,
-        /// Mass of the slider (kg).
-        slider: f64,
-    },
+    Crank(CrankSlider),
     /// A four-bar, toggle, cam or table of inertias on the present shaft, as the mean of its inertia.
     Mechanism {
         /// Inertia of its crank, and the mean of what that moves (kg m2).
@@ -107,46 +90,12 @@ pub enum Element {
     },
     /// A planetary set: one member on the present shaft, one held, what follows turns with the third.
     Planetary {
-        sun_teeth: u32,
-        ring_teeth: u32,
-        /// Module (m).
-        module: f64,
-        /// Number of planets.
-        planets: u32,
-        /// Inertia of the sun (kg m2).
-        sun: f64,
-        /// Inertia of a planet about its own axis (kg m2).
-        planet: f64,
-        /// Mass of a planet (kg).
-        planet_mass: f64,
-        /// Inertia of the carrier (kg m2).
-        carrier: f64,
-        /// Inertia of the ring (kg m2); 0 where the file is silent.
-        ring: f64,
-        /// The member on the present shaft; the sun where the file is silent.
-        #[serde(serialize_with = "named")]
-        input: Member,
-        /// The member that stands still; the ring where the file is silent.
-        #[serde(serialize_with = "named")]
-        held: Member,
-        /// Efficiency; 1 where the file is silent.
-        efficiency: f64,
+        gear: PlanetaryGear,
         /// As that of a gear.
         back_efficiency: f64,
     },
     /// A belt to the next mass.
-    Belt {
-        /// Diameter of the pulley on the motor's side (m).
-        driving: f64,
-        /// Diameter of the pulley on the load's side (m).
-        driven: f64,
-        /// Stiffness of one strand (N/m).
-        stiffness: f64,
-        /// Damping of one strand (N s/m); 0 where the file is silent.
-        damping: f64,
-        /// Efficiency; 1 where the file is silent.
-        efficiency: f64,
-    },
+    Belt(Belt),
     /// A drum or a pinion: turning becomes travel.
     Drum {
         /// Diameter (m).
@@ -234,15 +183,15 @@ impl Element {
                     density: table.number_or("density", Quantity { zero: true, ..Quantity::DENSITY }, 0.0)?,
                 }
             }
-            "crank" => Self::Crank {
-                inertia: table.number("inertia", Quantity::INERTIA)?,
-                radius: table.number("radius", Quantity::LENGTH)?,
-                rod: table.number("rod", Quantity::LENGTH)?,
-                rod_mass: table.number_or("rod_mass", Quantity::PART_MASS, 0.0)?,
-                rod_centre: table.number_or("rod_centre", Quantity::BORE, 0.0)?,
-                rod_inertia: table.number_or("rod_inertia", Quantity::PART_INERTIA, 0.0)?,
-                slider: table.number("slider", Quantity::PART_MASS)?,
-            },
+            "crank" => Self::Crank(CrankSlider {
+                crank: Inertia(table.number("inertia", Quantity::INERTIA)?),
+                radius: Length(table.number("radius", Quantity::LENGTH)?),
+                rod: Length(table.number("rod", Quantity::LENGTH)?),
+                rod_mass: Mass(table.number_or("rod_mass", Quantity::PART_MASS, 0.0)?),
+                rod_centre: Length(table.number_or("rod_centre", Quantity::BORE, 0.0)?),
+                rod_inertia: Inertia(table.number_or("rod_inertia", Quantity::PART_INERTIA, 0.0)?),
+                slider: Mass(table.number("slider", Quantity::PART_MASS)?),
+            }),
             "mechanism" => Self::Mechanism {
                 inertia: table.number_or("inertia", Quantity::PART_INERTIA, 0.0)? + mean_inertia(&mut table)?,
             },
@@ -253,30 +202,29 @@ impl Element {
             },
             "planetary" => {
                 let [efficiency, back_efficiency] = efficiencies(&mut table)?;
-                Self::Planetary {
-                    efficiency,
-                    back_efficiency,
-                    ring: table.number_or("ring", Quantity::PART_INERTIA, 0.0)?,
-                    input: member(&mut table, "input", Member::Sun)?,
-                    held: other_member(&mut table)?,
+                let ring = Inertia(table.number_or("ring", Quantity::PART_INERTIA, 0.0)?);
+                let (input, held) = (member(&mut table, "input", Member::Sun)?, other_member(&mut table)?);
+                let set = Planetary {
                     // `TEETH` allows whole numbers up to 10000 only.
                     sun_teeth: table.number("sun_teeth", Quantity::TEETH)? as u32,
                     ring_teeth: table.number("ring_teeth", Quantity::TEETH)? as u32,
                     module: table.number("module", Quantity::DIAMETER)?,
                     planets: table.number("planets", Quantity::TEETH)? as u32,
-                    sun: table.number("sun", Quantity::PART_INERTIA)?,
-                    planet: table.number("planet", Quantity::PART_INERTIA)?,
-                    planet_mass: table.number("planet_mass", Quantity::PART_MASS)?,
-                    carrier: table.number("carrier", Quantity::PART_INERTIA)?,
-                }
+                    sun: Inertia(table.number("sun", Quantity::PART_INERTIA)?),
+                    planet: Inertia(table.number("planet", Quantity::PART_INERTIA)?),
+                    planet_mass: Mass(table.number("planet_mass", Quantity::PART_MASS)?),
+                    carrier: Inertia(table.number("carrier", Quantity::PART_INERTIA)?),
+                    efficiency: Efficiency(efficiency),
+                };
+                Self::Planetary { gear: PlanetaryGear { set, ring, input, held }, back_efficiency }
             }
-            "belt" => Self::Belt {
-                driving: table.number("driving", Quantity::DIAMETER)?,
-                driven: table.number("driven", Quantity::DIAMETER)?,
-                stiffness: table.number("stiffness", Quantity::ROPE_STIFFNESS)?,
-                damping: table.number_or("damping", Quantity::ROPE_DAMPING, 0.0)?,
-                efficiency: table.number_or("efficiency", Quantity::EFFICIENCY, 1.0)?,
-            },
+            "belt" => Self::Belt(Belt {
+                driving: Diameter(table.number("driving", Quantity::DIAMETER)?),
+                driven: Diameter(table.number("driven", Quantity::DIAMETER)?),
+                strand: Stiffness(table.number("stiffness", Quantity::ROPE_STIFFNESS)?),
+                damping: LinearDamping(table.number_or("damping", Quantity::ROPE_DAMPING, 0.0)?),
+                efficiency: Efficiency(table.number_or("efficiency", Quantity::EFFICIENCY, 1.0)?),
+            }),
             "screw" => Self::Screw { lead: table.number("lead", Quantity::LENGTH)? },
             "swinging" => Self::Swinging {
                 mass: table.number("mass", Quantity::MASS)?,
@@ -306,11 +254,11 @@ impl Element {
             Self::Rotor { .. } => "rotor",
             Self::Shaft { .. } => "shaft",
             Self::Section { .. } => "section",
-            Self::Crank { .. } => "crank",
+            Self::Crank(_) => "crank",
             Self::Mechanism { .. } => "mechanism",
             Self::Worm { .. } => "worm",
             Self::Planetary { .. } => "planetary",
-            Self::Belt { .. } => "belt",
+            Self::Belt(_) => "belt",
             Self::Screw { .. } => "screw",
             Self::Swinging { .. } => "swinging",
             Self::Slack { .. } => "slack",
@@ -369,7 +317,7 @@ impl Element {
             Self::Shaft { stiffness, damping, .. } => {
                 self.heavy(chain, |chain| chain.shaft(Stiffness(stiffness), Damping(damping)))
             }
-            Self::Gear { ratio, efficiency, back_efficiency } => {
+            Self::Gear { ratio, efficiency, back_efficiency } | Self::Worm { ratio, efficiency, back_efficiency } => {
                 chain.worm(Ratio(ratio), Efficiency(efficiency), Efficiency(back_efficiency))
             }
             Self::Section { length, diameter, end, bore, modulus, damping, .. } => {
@@ -381,66 +329,22 @@ impl Element {
                 let stiffness = try_stepped(&[section], ShearModulus(modulus))?;
                 self.heavy(chain, |chain| chain.shaft(stiffness, Damping(damping)))
             }
-            Self::Crank { inertia, radius, rod, rod_mass, rod_centre, rod_inertia, slider } => {
-                let crank = CrankSlider {
-                    radius: Length(radius),
-                    rod: Length(rod),
-                    crank: Inertia(inertia),
-                    rod_mass: Mass(rod_mass),
-                    rod_centre: Length(rod_centre),
-                    rod_inertia: Inertia(rod_inertia),
-                    slider: Mass(slider),
-                };
+            Self::Crank(crank) => {
                 crank.check()?;
                 chain.rotor(crank.mean_inertia())
             }
-            Self::Worm { ratio, efficiency, back_efficiency } => {
-                chain.worm(Ratio(ratio), Efficiency(efficiency), Efficiency(back_efficiency))
-            }
-            Self::Planetary {
-                sun_teeth,
-                ring_teeth,
-                module,
-                planets,
-                sun,
-                planet,
-                planet_mass,
-                carrier,
-                ring,
-                input,
-                held,
-                efficiency,
-                back_efficiency,
-            } => {
-                let both_ways = efficiency == back_efficiency;
-                let set = Planetary {
-                    sun_teeth,
-                    ring_teeth,
-                    module,
-                    planets,
-                    sun: Inertia(sun),
-                    planet: Inertia(planet),
-                    planet_mass: Mass(planet_mass),
-                    carrier: Inertia(carrier),
-                    efficiency: Efficiency(if both_ways { efficiency } else { 1.0 }),
+            Self::Planetary { gear, back_efficiency } => {
+                let (gear, worm) = losing_alike(gear, back_efficiency);
+                let chain = match (gear.input, gear.held) {
+                    (Member::Sun, Member::Ring) => chain.planetary(gear.set),
+                    _ => chain.planetary_gear(gear),
                 };
-                let chain = match (input, held) {
-                    (Member::Sun, Member::Ring) => chain.planetary(set),
-                    _ => chain.planetary_gear(PlanetaryGear { set, ring: Inertia(ring), input, held }),
-                };
-                if both_ways {
-                    chain
-                } else {
-                    chain.worm(Ratio(1.0), Efficiency(efficiency), Efficiency(back_efficiency))
+                match worm {
+                    Some([ahead, back]) => chain.worm(Ratio(1.0), ahead, back),
+                    None => chain,
                 }
             }
-            Self::Belt { driving, driven, stiffness, damping, efficiency } => chain.belt(Belt {
-                driving: Diameter(driving),
-                driven: Diameter(driven),
-                strand: Stiffness(stiffness),
-                damping: LinearDamping(damping),
-                efficiency: Efficiency(efficiency),
-            }),
+            Self::Belt(belt) => chain.belt(belt),
             Self::Screw { lead } => chain.screw(Length(lead)),
             Self::Swinging { mass, length } => chain.swinging(Mass(mass), Length(length)),
             Self::Slack { travel } => chain.slack(Length(travel)),
@@ -454,7 +358,8 @@ impl Element {
         })
     }
 
-    /// The element in the words of the library's builder, as `.rotor(Inertia(0.08))`.
+    /// The element in the words of the library's builder, as `.rotor(Inertia(0.08))`. The `Debug` of its structures is
+    /// how they are written.
     pub fn rust(self) -> String {
         match self {
             Self::Motor { inertia, .. } => format!("Chain::motor(Inertia({inertia:?}))"),
@@ -470,56 +375,23 @@ impl Element {
                     Diameter({end:?})).bored(Diameter({bore:?})).stiffness(ShearModulus({modulus:?})), \
                     Damping({damping:?}))"
             )),
-            Self::Crank { inertia, radius, rod, rod_mass, rod_centre, rod_inertia, slider } => format!(
-                ".rotor(CrankSlider {{ radius: Length({radius:?}), rod: Length({rod:?}), crank: Inertia({inertia:?}), \
-                    rod_mass: Mass({rod_mass:?}), \
-                 rod_centre: Length({rod_centre:?}), rod_inertia: Inertia({rod_inertia:?}), slider: Mass({slider:?}) \
-                 }}.mean_inertia())"
-            ),
+            Self::Crank(crank) => format!(".rotor({crank:?}.mean_inertia())"),
             Self::Gear { ratio, efficiency, back_efficiency } | Self::Worm { ratio, efficiency, back_efficiency } => {
                 format!(".worm(Ratio({ratio:?}), Efficiency({efficiency:?}), Efficiency({back_efficiency:?}))")
             }
-            Self::Planetary {
-                sun_teeth,
-                ring_teeth,
-                module,
-                planets,
-                sun,
-                planet,
-                planet_mass,
-                carrier,
-                ring,
-                input,
-                held,
-                efficiency,
-                back_efficiency,
-            } => {
-                let (at_once, behind) = if efficiency == back_efficiency {
-                    (efficiency, String::new())
-                } else {
-                    let both = format!("Efficiency({efficiency:?}), Efficiency({back_efficiency:?})");
-                    (1.0, format!(".worm(Ratio(1.0), {both})"))
-                };
-                let set = format!(
-                    "Planetary {{ sun_teeth: {sun_teeth}, ring_teeth: {ring_teeth}, module: {module:?}, planets: \
-                        {planets}, \
-                     sun: Inertia({sun:?}), planet: Inertia({planet:?}), planet_mass: Mass({planet_mass:?}), carrier: \
-                     Inertia({carrier:?}), \
-                     efficiency: Efficiency({at_once:?}) }}"
-                );
+            Self::Planetary { gear, back_efficiency } => {
+                let (PlanetaryGear { set, ring, input, held }, worm) = losing_alike(gear, back_efficiency);
+                let behind =
+                    worm.map_or_else(String::new, |[ahead, back]| format!(".worm(Ratio(1.0), {ahead:?}, {back:?})"));
                 match (input, held) {
-                    (Member::Sun, Member::Ring) => format!(".planetary({set}){behind}"),
+                    (Member::Sun, Member::Ring) => format!(".planetary({set:?}){behind}"),
                     _ => format!(
-                        ".planetary_gear(PlanetaryGear {{ set: {set}, ring: Inertia({ring:?}), input: \
-                            Member::{input:?}, held: Member::{held:?} }}){behind}"
+                        ".planetary_gear(PlanetaryGear {{ set: {set:?}, ring: {ring:?}, input: Member::{input:?}, \
+                         held: Member::{held:?} }}){behind}"
                     ),
                 }
             }
-            Self::Belt { driving, driven, stiffness, damping, efficiency } => format!(
-                ".belt(Belt {{ driving: Diameter({driving:?}), driven: Diameter({driven:?}), strand: \
-                    Stiffness({stiffness:?}), \
-                 damping: LinearDamping({damping:?}), efficiency: Efficiency({efficiency:?}) }})"
-            ),
+            Self::Belt(belt) => format!(".belt({belt:?})"),
             Self::Screw { lead } => format!(".screw(Length({lead:?}))"),
             Self::Swinging { mass, length } => format!(".swinging(Mass({mass:?}), Length({length:?}))"),
             Self::Slack { travel } => format!(".slack(Length({travel:?}))"),
@@ -533,6 +405,16 @@ impl Element {
             Self::Backlash { gap } => format!(".backlash(Gap({gap:?}))"),
         }
     }
+}
+
+/// A planetary set that loses alike both ways, and the losses of a worm behind it where the load's way loses more.
+fn losing_alike(gear: PlanetaryGear, back_efficiency: f64) -> (PlanetaryGear, Option<[Efficiency; 2]>) {
+    let ahead = gear.set.efficiency;
+    if ahead.0 == back_efficiency {
+        return (gear, None);
+    }
+    let set = Planetary { efficiency: Efficiency(1.0), ..gear.set };
+    (PlanetaryGear { set, ..gear }, Some([ahead, Efficiency(back_efficiency)]))
 }
 
 /// A ratio, negative where an external gear turns the sense round.
@@ -559,11 +441,6 @@ fn other_member(table: &mut Table<'_>) -> Result<Member, Diagnostic> {
         return Err(table.wrong("held", "another member than the input"));
     }
     Ok(held)
-}
-
-fn named<S: serde::Serializer>(member: &Member, serializer: S) -> Result<S::Ok, S::Error> {
-    let name = MEMBERS.iter().find(|(_, one)| one == member).map_or("", |(name, _)| name);
-    serializer.serialize_str(name)
 }
 
 /// Efficiencies while the motor drives and while the load does; without losses where the file is silent.

@@ -1,7 +1,5 @@
 //! Excitations and speed range of a machine.
 
-use serde::Serialize;
-
 use super::diagnostic::Diagnostic;
 use super::quantity::Quantity;
 use super::table::Table;
@@ -10,14 +8,14 @@ use super::table::Table;
 pub const ENGINE: &str = "engine";
 
 /// The running range, speeds of the motor (rad/s).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Running {
     pub least: f64,
     pub greatest: f64,
 }
 
 /// Something that excites a fixed number of times on a turn of its shaft.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Excitation {
     pub name: String,
     /// Speed of the motor over that of the shaft that excites.

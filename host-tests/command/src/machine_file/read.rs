@@ -421,7 +421,7 @@ fn branches(
             part.element,
             Element::Motor { .. }
                 | Element::Rotor { .. }
-                | Element::Crank { .. }
+                | Element::Crank(_)
                 | Element::Mechanism { .. }
                 | Element::Planetary { .. }
         );

@@ -232,16 +232,16 @@ impl Carried {
                     rope.into_iter().for_each(|rope| *rope = true);
                     continue;
                 }
-                Element::Planetary { efficiency, back_efficiency, .. }
-                | Element::Gear { efficiency, back_efficiency, .. }
+                Element::Planetary { gear, back_efficiency } => (last, [gear.set.efficiency.0, back_efficiency]),
+                Element::Gear { efficiency, back_efficiency, .. }
                 | Element::Worm { efficiency, back_efficiency, .. } => (last, [efficiency, back_efficiency]),
-                Element::Belt { efficiency, .. } => (last.saturating_sub(1), [efficiency; 2]),
+                Element::Belt(belt) => (last.saturating_sub(1), [belt.efficiency.0; 2]),
                 _ => continue,
             };
             if losses == [1.0; 2] {
                 continue;
             }
-            let is_belt = matches!(part.element, Element::Belt { .. });
+            let is_belt = matches!(part.element, Element::Belt(_));
             let behind = at(shaft).and_then(|shaft| self.losses.get(shaft).map(|_| shaft));
             let ending = last.checked_sub(1).and_then(at);
             match (behind, ending) {

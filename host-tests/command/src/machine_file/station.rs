@@ -80,12 +80,12 @@ pub(crate) fn stations(elements: &[Part]) -> Vec<Station> {
         let (mass, shaft) = match part.element {
             Element::Motor { .. }
             | Element::Rotor { .. }
-            | Element::Crank { .. }
+            | Element::Crank(_)
             | Element::Mechanism { .. }
             | Element::Planetary { .. }
             | Element::Lifted { .. }
             | Element::Driven { .. } => (Some(last), None),
-            Element::Shaft { .. } | Element::Section { .. } | Element::Belt { .. } | Element::Rope { .. } => {
+            Element::Shaft { .. } | Element::Section { .. } | Element::Belt(_) | Element::Rope { .. } => {
                 (None, last.checked_sub(1))
             }
             // a pendulum: its own spring and its own mass

@@ -176,11 +176,13 @@ impl Project {
         let plan = Plan::of(&damped);
         let observers = plan.as_ref().map_or_else(|_| Vec::new(), |plan| observers(machine, plan));
         let rigid = observers.last() == Some(&"RigidObserver");
-        let mut words = words(machine);
+        let chain = written(&machine.elements, "        ");
+        let dampers = dampers(&machine.rings()).replace('\n', "\n    ");
+        let written = format!("{chain}{dampers}");
+        let mut words = words(&written);
         words.extend(["Speed", "Torque"]);
-        let dampers = dampers(&machine.rings(), &mut words).replace('\n', "\n    ");
         if !dampers.is_empty() {
-            words.extend(["Inertia", "Match", "Ratio", "Train", "TwoMass"]);
+            words.extend(["Match", "Train", "TwoMass"]);
         }
         let float = |value: f64| format!("{value:?}");
         let weight = machine.chain.gravity_torque();
@@ -208,7 +210,7 @@ impl Project {
             krate,
             title: machine.name.clone(),
             words: words.into_iter().collect::<Vec<_>>().join(", "),
-            chain: written(&machine.elements, "        "),
+            chain,
             encoder: encoder(machine),
             torque: float(machine.limits.torque),
             rated_torque: float(machine.limits.rated_torque),
