@@ -7,6 +7,8 @@ use std::process::Command;
 use cargo_driveline::cli::Plan;
 use cargo_driveline::machine_file::parse;
 
+use super::bench::{Bench, answered};
+
 const SETTINGS: &str = "[encoder]\nlines = 2048\n[control]\nrate_hz = 4000\n[disturbance]\ntorque_accuracy = 4.0\n\
     load_torque_step = 150.0\nwithin = 10.0\n[limits]\ntorque = 600.0\nrated_torque = 300.0\nspeed = 150.0\n";
 
@@ -94,9 +96,8 @@ const WITH_A_SHAFT: [&str; 32] = [
 const WITHOUT: [&str; 8] = ["M", "M R", "M G R", "M g R", "M W R", "M P R", "M G D L", "M r H r H R"];
 
 /// Whether a command took the file, and what it said.
-fn answer(folder: &Path, arguments: &[&str]) -> (bool, String) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-    let ended = command.args(arguments).current_dir(folder).output().unwrap();
+fn answer(bench: &Bench, arguments: &[&str]) -> (bool, String) {
+    let ended = bench.run(arguments);
     let said = [&ended.stdout, &ended.stderr].map(|bytes| String::from_utf8_lossy(bytes).into_owned());
     (ended.status.success(), said.concat())
 }
@@ -195,11 +196,9 @@ fn json(said: &str) -> serde_json::Value {
 /// The exports are refused for their place in the end, since compiling takes minutes.
 #[test]
 fn every_command_gives_the_same_answer() {
-    let place = tempfile::tempdir().unwrap();
-    let folder = place.path();
-    fs::create_dir(folder.join("full")).unwrap();
-    fs::write(folder.join("full/mine"), "kept").unwrap();
-    fs::write(folder.join("swing.csv"), recording()).unwrap();
+    let bench = &Bench::with("swing.csv", recording());
+    fs::create_dir(bench.path("full")).unwrap();
+    bench.write("full/mine", "kept");
     let run = "[run]\ntime = 0.02\nstep = 1e-3\n";
     let plain = WITH_A_SHAFT.iter().chain(&WITHOUT).chain(&ODD).map(|words| ((*words).to_owned(), file(words)));
     let base = file("M K q H q");
@@ -209,17 +208,17 @@ fn every_command_gives_the_same_answer() {
     });
     let (mut made, mut lacking, mut refused) = (0, 0, 0);
     for (index, (what, text)) in plain.chain(changed).enumerate() {
-        fs::write(folder.join("m.toml"), &text).unwrap();
-        fs::write(folder.join("run.toml"), format!("{text}{run}")).unwrap();
+        bench.write("m.toml", &text);
+        bench.write("run.toml", format!("{text}{run}"));
         let project = format!("p{index}");
-        let design = answer(folder, &["design", "m.toml", "--json"]);
-        let modes = answer(folder, &["modes", "m.toml", "--json"]);
-        let new = answer(folder, &["new", &project, "--machine", "m.toml"]);
-        let library = answer(folder, &["export", "c", "m.toml", "--core", "host", "--out", "full"]);
-        let fmu = answer(folder, &["export", "fmu", "m.toml", "--out", "none/m.fmu"]);
-        let campaign = answer(folder, &["campaign", "m.toml", "--draw", "0"]);
-        let replay = answer(folder, &["replay", "swing.csv", "--machine", "m.toml", "--json"]);
-        let simulate = answer(folder, &["simulate", "run.toml", "--json"]);
+        let design = answer(bench, &["design", "m.toml", "--json"]);
+        let modes = answer(bench, &["modes", "m.toml", "--json"]);
+        let new = answer(bench, &["new", &project, "--machine", "m.toml"]);
+        let library = answer(bench, &["export", "c", "m.toml", "--core", "host", "--out", "full"]);
+        let fmu = answer(bench, &["export", "fmu", "m.toml", "--out", "none/m.fmu"]);
+        let campaign = answer(bench, &["campaign", "m.toml", "--draw", "0"]);
+        let replay = answer(bench, &["replay", "swing.csv", "--machine", "m.toml", "--json"]);
+        let simulate = answer(bench, &["simulate", "run.toml", "--json"]);
         let of_drive = [&design, &new, &library, &fmu, &campaign, &replay];
         let all = [&design, &modes, &new, &library, &fmu, &campaign, &replay, &simulate];
         let machine = match parse("m.toml", &text) {
@@ -256,10 +255,10 @@ fn every_command_gives_the_same_answer() {
                 let rotor = element("rotor", &format!("inertia = {remedy}"));
                 let text =
                     text.replacen("[[element]]\nkind = \"worm\"", &format!("{rotor}[[element]]\nkind = \"worm\""), 1);
-                fs::write(folder.join("m.toml"), &text).unwrap();
-                fs::write(folder.join("run.toml"), format!("{text}{run}")).unwrap();
+                bench.write("m.toml", &text);
+                bench.write("run.toml", format!("{text}{run}"));
                 for again in [&["campaign", "m.toml", "--draw", "0"][..], &["simulate", "run.toml"]] {
-                    let (taken, said) = answer(folder, again);
+                    let (taken, said) = answer(bench, again);
                     assert!(!campaign.0 && taken, "{what}: {said}");
                 }
             }
@@ -275,7 +274,7 @@ fn every_command_gives_the_same_answer() {
         assert!(simulate.0 || !has_shaft || what == "M K w R", "{what}: {}", simulate.1);
         (made, lacking) = (made + u32::from(why.is_none()), lacking + u32::from(lacks));
         if has_shaft && why.is_none() {
-            same_figures(&what, [&design.1, &modes.1], &folder.join(&project));
+            same_figures(&what, [&design.1, &modes.1], &bench.path(&project));
         }
     }
     // each kind of answer was there
@@ -312,7 +311,6 @@ fn same_figures(what: &str, said: [&String; 2], project: &Path) {
 /// it is, and those of a draw.
 #[test]
 fn a_campaign_of_one_machine_in_two_files_is_the_same() {
-    let place = tempfile::tempdir().unwrap();
     let pairs = [
         ("M K g R", "M K R/g"),
         ("M g K R", "M K/g R/g"),
@@ -321,10 +319,8 @@ fn a_campaign_of_one_machine_in_two_files_is_the_same() {
         ("M g D T S L", "M D/g T S L"),
     ];
     let figures = |words: &str, of: &str| {
-        fs::write(place.path().join("m.toml"), file(words)).unwrap();
-        let (taken, said) = answer(place.path(), &["campaign", "m.toml", "--draw", "3", "--json"]);
-        assert!(taken, "{words}: {said}");
-        json(&said)[of].as_object().unwrap().clone()
+        let said = Bench::with("m.toml", file(words)).json(&["campaign", "m.toml", "--draw", "3"]);
+        said[of].as_object().unwrap().clone()
     };
     for (words, at_motor) in pairs {
         for of in ["nominal", "figures"] {
@@ -342,16 +338,13 @@ fn a_campaign_of_one_machine_in_two_files_is_the_same() {
 /// The kept mode is the one whose frequency the two masses have, by hand from what is printed.
 #[test]
 fn the_mode_that_is_kept_is_named() {
-    let place = tempfile::tempdir().unwrap();
     let mut names = std::collections::BTreeSet::new();
     let branch = "[[branch]]\nat = \"rotor\"\n[[branch.element]]\nkind = \"shaft\"\nstiffness = 5.0\n\
         [[branch.element]]\nkind = \"rotor\"\ninertia = 1.0e-3\n[encoder]";
     for (words, branch) in
         [("M K q", "[encoder]"), ("M K q K q", "[encoder]"), ("M K r G k R", "[encoder]"), ("M K q", branch)]
     {
-        fs::write(place.path().join("m.toml"), file(words).replace("[encoder]", branch)).unwrap();
-        let (_, said) = answer(place.path(), &["modes", "m.toml", "--json"]);
-        let said = json(&said);
+        let said = answered("modes", &file(words).replace("[encoder]", branch));
         let kept = &said["reductions"][1];
         let value = |name: &str| kept[name].as_f64().unwrap();
         let free = (value("stiffness") * (1.0 / value("motor_inertia") + 1.0 / value("load_inertia"))).sqrt();
@@ -431,12 +424,10 @@ fn built(project: &Path) -> String {
 /// is kept.
 #[test]
 fn data_and_constants_of_a_project_do_not_part() {
-    let place = tempfile::tempdir().unwrap();
-    fs::write(place.path().join("m.toml"), file("M K q H q")).unwrap();
+    let bench = Bench::with("m.toml", file("M K q H q"));
     let parts = ["--board", "qemu-m3", "--parts", "fluctuation"];
-    let made = answer(place.path(), &[&["new", "mine", "--machine", "m.toml"], &parts[..]].concat());
-    assert!(made.0, "{}", made.1);
-    let project = place.path().join("mine");
+    bench.said(&[&["new", "mine", "--machine", "m.toml"], &parts[..]].concat());
+    let project = bench.path("mine");
     let parted = |said: &str| said.contains("cargo::error=") || said.contains("cargo::warning=");
     assert!(!parted(&built(&project)));
     let read = |path: &str| fs::read_to_string(project.join(path)).unwrap();
@@ -454,16 +445,22 @@ fn data_and_constants_of_a_project_do_not_part() {
     let (_, remedy) = said.split_once("type `cargo driveline ").unwrap_or_else(|| panic!("{said}"));
     let remedy: Vec<&str> = remedy.split('`').next().unwrap().split(' ').collect();
     let lib = read("src/lib.rs");
-    let mended = answer(&project, &remedy);
+    // in the project's folder
+    let remedied = || {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+        let ended = command.args(&remedy).current_dir(&project).output().unwrap();
+        (ended.status.success(), [ended.stdout, ended.stderr].map(|said| String::from_utf8(said).unwrap()).concat())
+    };
+    let mended = remedied();
     assert!(mended.0 && mended.1.contains("src/machine.rs.old"), "{}", mended.1);
     assert!(!parted(&built(&project)));
     assert!(read("src/machine.rs").contains("Speed(130.0)") && read("src/machine.rs.old") == constants);
     // nothing else of the options or the name
     assert_eq!(read("src/lib.rs"), lib);
-    assert!(answer(&project, &remedy).1.contains("nothing has changed"));
+    assert!(remedied().1.contains("nothing has changed"));
     // a copy is not written over
     fs::write(project.join("machine.toml"), file("M K q H q")).unwrap();
-    let refused = answer(&project, &remedy);
+    let refused = remedied();
     assert!(!refused.0 && refused.1.contains("src/machine.rs.old would be written over"), "{}", refused.1);
     assert!(read("src/machine.rs").contains("Speed(130.0)"));
 }

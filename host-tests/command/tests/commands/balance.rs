@@ -1,35 +1,23 @@
 //! `cargo driveline balancing` as an engineer meets it.
 
-use std::process::{Command, Output};
-
 use driveline::balancing::Complex;
 use serde_json::Value;
 
+use super::bench::{Bench, answered};
+
 const FAN: &str = include_str!("../../rotors/fan-balance.toml");
 
-fn balance(text: &str, arguments: &[&str]) -> Output {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("field.toml"), text).unwrap();
-    Command::new(env!("CARGO_BIN_EXE_cargo-driveline"))
-        .args(["balancing", "field.toml"])
-        .args(arguments)
-        .current_dir(folder.path())
-        .output()
-        .unwrap()
+fn balanced(text: &str) -> String {
+    Bench::with("field.toml", text).said(&["balancing", "field.toml"])
 }
 
 fn json(text: &str) -> Value {
-    let output = balance(text, &["--json"]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).unwrap()
+    answered("balancing", text)
 }
 
 /// The first line of the error; a faulty file is exit code 2.
 fn refused(text: &str) -> String {
-    let output = balance(text, &[]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(output.stdout.is_empty());
-    String::from_utf8(output.stderr).unwrap().lines().next().unwrap().to_owned()
+    Bench::with("field.toml", text).refused(&["balancing", "field.toml"]).lines().next().unwrap().to_owned()
 }
 
 fn near(value: &Value, expected: f64, tolerance: f64) {
@@ -282,7 +270,7 @@ fn a_trial_weight_that_changes_little_is_told() {
     let warning = "trial weight of p: changes the readings by";
     for (readings, told) in [(&[10.5][..], Some("5.00 %")), (&[10.5, 9.2], Some("8.00 %")), (&[10.5, 11.5], None)] {
         let text = format!("{file}{}", readings.iter().map(|reading| trial(*reading)).collect::<String>());
-        let said = String::from_utf8(balance(&text, &[]).stdout).unwrap();
+        let said = balanced(&text);
         let line = said.lines().find(|line| line.starts_with(warning));
         assert_eq!(line.is_some(), told.is_some(), "{said}");
         assert!(line.is_none_or(|line| line.contains(told.unwrap_or_default())), "{said}");
@@ -303,7 +291,7 @@ fn a_reading_that_is_left_out_is_not_in_the_headline() {
     let outcome = json(&three);
     near(&outcome["planes"][0]["weight"]["amplitude"], 2.9513806082910325, 3e-9);
     assert_eq!((&outcome["rows"][1]["counts"], &outcome["rows"][2]["counts"]), (&true.into(), &false.into()));
-    let said = String::from_utf8(balance(&three, &[]).stdout).unwrap();
+    let said = balanced(&three);
     assert!(said.contains("goes from 13.5 to") && said.contains("casing (left out)"), "{said}");
     assert!(!said.lines().next().unwrap().contains("99"), "{said}");
 }
@@ -333,7 +321,7 @@ fn the_grade_is_split_between_the_bearings() {
     let (p, q) = (unbalance(2.9513806082910325, 50.18891873739672), unbalance(2.8441376945975025, 278.1159343862014));
     near(&grade["bearings"][0]["now_g_mm"], (p * 0.75 + q * 0.25).norm(), 1e-5);
     near(&grade["bearings"][1]["now_g_mm"], (p * 0.25 + q * 0.75).norm(), 1e-5);
-    let said = String::from_utf8(balance(&FAN.replacen("radius = 0.25 ", split, 1), &[]).stdout).unwrap();
+    let said = balanced(&FAN.replacen("radius = 0.25 ", split, 1));
     assert!(said.contains("at bearing A: ") && said.contains("split between the bearings"), "{said}");
 }
 
@@ -363,15 +351,14 @@ fn amplitudes_alone_have_holes_a_grade_and_a_page() {
     near(&answer["predicted"], 5.0 * (1.0 - holes / wanted).norm(), 1e-9);
     near(&answer["grade"]["now_g_mm"], 1250.0, 1e-6);
     near(&answer["grade"]["predicted_g_mm"], (wanted - holes).norm() * 100.0, 1e-6);
-    let output = balance(&text, &["--html", "page.html"]);
-    let said = String::from_utf8(output.stdout).unwrap();
+    let said = Bench::with("field.toml", &text).said(&["balancing", "field.toml", "--html", "page.html"]);
     for word in ["add 12.5 g at 120.0°", "in hole 2", "permissible", "page: page.html"] {
         assert!(said.contains(word), "{word} in {said}");
     }
     // two runs: two answers, each with its holes
     let two = json(&grinder(rest, &[0.0, 120.0]));
     assert_eq!((two["answers"].as_array().unwrap().len(), two["weights"].as_array().unwrap().len()), (2, 2));
-    let said = String::from_utf8(balance(&grinder("", &[0.0, 120.0]), &[]).stdout).unwrap();
+    let said = balanced(&grinder("", &[0.0, 120.0]));
     assert!(
         said.contains("Two trial runs leave two answers") && said.contains("answer 2: predicted: 0 mm/s"),
         "{said}"
@@ -483,7 +470,7 @@ fn the_total_of_a_plane() {
 /// The coefficients that are printed are a file without trial runs: it gives the same weights to the six digits.
 #[test]
 fn the_coefficients_are_those_of_a_file() {
-    let said = String::from_utf8(balance(FAN, &[]).stdout).unwrap();
+    let said = balanced(FAN);
     let start = said.find("[[influence]]").unwrap();
     let end = said[start..].find("page:").map_or(said.len(), |end| start + end);
     let known = format!("{}{}", &FAN[..FAN.find("[[trial]]").unwrap()], &said[start..end]);
@@ -558,7 +545,7 @@ fn a_hard_bearing_machine_needs_no_trial_runs() {
     assert!((polar(parts, "couple_g_mm2", "couple_degrees") - couple * 1e9).norm() < 1e-6, "{parts}");
     assert_eq!(outcome["grade"]["one_plane_suffices"], false);
     assert_eq!(json(&MACHINE.replace("width = 0.4", "width = 0.06"))["grade"]["one_plane_suffices"], true);
-    let text = String::from_utf8(balance(MACHINE, &["--html", "page.html"]).stdout).unwrap();
+    let text = balanced(MACHINE);
     for word in ["static unbalance now", "couple unbalance now", "two: width over diameter"] {
         assert!(text.contains(word), "{word} in {text}");
     }

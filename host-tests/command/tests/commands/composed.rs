@@ -2,10 +2,11 @@
 //! is given, a planetary set with three free members; and the forces in the pins of a crank.
 
 use std::f64::consts::{PI, TAU};
-use std::process::Command;
 
 use driveline_solver::noise::Noise;
 use serde_json::Value;
+
+use super::bench::answered;
 
 /// Within 1e-6, which the elements far exceed: of the figure, or of what it is the difference of.
 fn close(found: &Value, expected: f64, scale: f64) {
@@ -23,13 +24,8 @@ fn constant(on: &str, torque: f64) -> String {
 
 /// The result of a train for a time (s).
 fn simulated(train: &str, time: f64) -> Value {
-    let folder = tempfile::tempdir().unwrap();
-    let text = format!("name = \"train\"\n{train}[run]\ntime = {time:?}\nstep = {:?}\n", time / 100.0);
-    std::fs::write(folder.path().join("train.toml"), text).unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-    let output = command.args(["simulate", "train.toml", "--json"]).current_dir(folder.path()).output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
-    serde_json::from_slice(&output.stdout).unwrap()
+    let run = format!("[run]\ntime = {time:?}\nstep = {:?}\n", time / 100.0);
+    answered("simulate", &format!("name = \"train\"\n{train}{run}"))
 }
 
 /// Values between two bounds, even by ratio.

@@ -1,20 +1,11 @@
 //! Critical speeds and the modes of trains, as `cargo driveline modes` tells them.
 
-use std::process::Command;
+use super::bench::{Bench, answered};
 
-pub fn modes(text: &str, html: bool) -> (serde_json::Value, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let (file, page) = (folder.path().join("machine.toml"), folder.path().join("page.html"));
-    std::fs::write(&file, text).unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-    command.args(["modes", file.to_str().unwrap(), "--json"]);
-    if html {
-        command.args(["--html", page.to_str().unwrap()]);
-    }
-    let output = command.output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let page = if html { std::fs::read_to_string(page).unwrap() } else { String::new() };
-    (serde_json::from_slice(&output.stdout).unwrap(), page)
+/// What `modes` finds, and its page.
+pub fn modes(text: &str) -> (serde_json::Value, String) {
+    let bench = Bench::with("machine.toml", text);
+    (bench.json(&["modes", "machine.toml", "--html", "page.html"]), bench.read("page.html"))
 }
 
 /// A motor and a roll behind a gear of five; omega^2 = k (J1 + J2)/(J1 J2) with J2 = 50/25 and k = 600: 500 + 100.
@@ -31,7 +22,7 @@ fn a_critical_speed_within_ten_percent_of_the_running_range_is_flagged() {
                    [[excitation]]\nname = \"roll\"\nratio = 5\norders = [3]\n";
     let flags = |least: f64, greatest: f64| {
         let text = format!("{ELEMENTS}[running]\nleast = {least}\ngreatest = {greatest}\n{excited}");
-        let (found, page) = modes(&text, true);
+        let (found, page) = modes(&text);
         let title = "Campbell diagram";
         assert!(
             page.contains(title) && page.contains("point failed") == found.to_string().contains("\"flagged\":true")
@@ -55,7 +46,7 @@ fn a_critical_speed_within_ten_percent_of_the_running_range_is_flagged() {
 
 #[test]
 fn without_excitations_there_is_no_diagram() {
-    let (found, page) = modes(ELEMENTS, true);
+    let (found, page) = modes(ELEMENTS);
     assert!(found["critical"].as_array().unwrap().is_empty() && !page.contains("Campbell"));
 }
 
@@ -67,7 +58,7 @@ fn modes_of_a_closed_ring_are_those_of_the_closed_form() {
         |a: &str, b: &str| format!("[[link]]\nname = \"{a}{b}\"\nbetween = [\"{a}\", \"{b}\"]\nstiffness = 54.0\n");
     let discs = ["a", "b", "c"].map(disc).concat();
     let shafts = [shaft("a", "b"), shaft("b", "c"), shaft("a", "c")].concat();
-    let (found, page) = modes(&format!("name = \"ring\"\n{discs}{shafts}[run]\ntime = 1\nstep = 0.1\n"), true);
+    let (found, page) = modes(&format!("name = \"ring\"\n{discs}{shafts}[run]\ntime = 1\nstep = 0.1\n"));
     assert_eq!(found["rigid_motions"], 1);
     for mode in 0..2 {
         let omega = found["resonances"][mode]["frequency"].as_f64().unwrap();
@@ -83,7 +74,7 @@ fn barred_speeds_are_printed() {
     let omega = 600.0_f64.sqrt();
     let excited = "[[excitation]]\nname = \"motor\"\norders = [1, 1.15, 2]\n";
     let text = format!("{ELEMENTS}[running]\nleast = 5.0\ngreatest = {}\n{excited}", 0.95 * omega);
-    let (found, page) = modes(&text, true);
+    let (found, page) = modes(&text);
     let ranges: Vec<f64> = found["barred"]
         .as_array()
         .unwrap()
@@ -99,5 +90,5 @@ fn barred_speeds_are_printed() {
         assert!((edge / expected - 1.0).abs() < 1e-13, "{ranges:?}");
     }
     assert!(page.contains("Barred speeds"));
-    assert!(modes(ELEMENTS, false).0["barred"].as_array().unwrap().is_empty());
+    assert!(answered("modes", ELEMENTS)["barred"].as_array().unwrap().is_empty());
 }

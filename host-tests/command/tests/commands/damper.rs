@@ -10,6 +10,7 @@ use driveline_report::format::{percent, significant};
 use nalgebra::{Complex, Matrix3, Vector3};
 use serde_json::Value;
 
+use super::bench::{Bench, answered};
 use super::critical::modes;
 
 const MOTOR: f64 = 2.0;
@@ -67,7 +68,7 @@ fn dampers_have_their_best_size_and_the_response_of_the_whole_machine() {
         ("kind = \"viscous\"\nmode = 1\n", lanchester, (2.0 + mu) / mu),
         ("kind = \"tuned\"\nstiffness = 20000\ndamping = 30\n", (2.0e4, 30.0), (1.0 + 2.0 / mu).sqrt()),
     ] {
-        let (found, page) = modes(&machine(keys), true);
+        let (found, page) = modes(&machine(keys));
         let damper = &found["dampers"][0];
         for (key, expected) in
             [("mass_ratio", mu), ("stiffness", stiffness), ("damping", damping), ("fixed_amplitude", fixed)]
@@ -150,17 +151,15 @@ fn a_design_has_the_dampers_in_its_two_masses() {
     assert_eq!(Plan::with_dampers(&none).unwrap().dampers, None);
 }
 
+/// A viscous ring and a tuned one on the load.
+const TWO: &str = "kind = \"viscous\"\ndamping = 20\n[[damper]]\nat = \"load\"\ninertia = 0.4\nkind = \"tuned\"\n\
+                   stiffness = 14000\ndamping = 40\n";
+
 /// What is printed to paste is the train with its dampers, to the bit.
 #[test]
 fn printed_constants_have_the_dampers() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("damped.toml");
-    let two = "kind = \"viscous\"\ndamping = 20\n[[damper]]\nat = \"load\"\ninertia = 0.4\nkind = \"tuned\"\n\
-               stiffness = 14000\ndamping = 40\n";
-    std::fs::write(&path, machine(two)).unwrap();
-    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-    let output = command.args(["design", path.to_str().unwrap(), "--emit", "rust"]).output().unwrap();
-    let text = String::from_utf8(output.stdout).unwrap();
+    let text = Bench::with("damped.toml", machine(TWO)).run(&["design", "damped.toml", "--emit", "rust"]).stdout;
+    let text = String::from_utf8(text).unwrap();
     // at the motor, a quarter; the tuned ring first: a viscous one takes its share of the mode that all others have
     let tuned = text.find(".damper(1, Ratio(1.0), Damper { inertia: 0.1, stiffness: 3500.0, damping: 10.0 })").unwrap();
     let viscous = text.find(".damper(1, Ratio(1.0), Damper { inertia: 0.2, stiffness: 0.0, damping: 5.0 });").unwrap();
@@ -170,15 +169,9 @@ fn printed_constants_have_the_dampers() {
 /// Two rings on the load: what `new` writes, with the sizes of `design --emit rust`.
 #[test]
 fn a_project_has_the_dampers() {
-    let folder = tempfile::tempdir().unwrap();
-    let (path, project) = (folder.path().join("damped.toml"), folder.path().join("press"));
-    let two = "kind = \"viscous\"\ndamping = 20\n[[damper]]\nat = \"load\"\ninertia = 0.4\nkind = \"tuned\"\n\
-               stiffness = 14000\ndamping = 40\n";
-    std::fs::write(&path, machine(two)).unwrap();
-    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-    let output = command.arg("new").arg(&project).arg("--machine").arg(&path).output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let text = std::fs::read_to_string(project.join("src/machine.rs")).unwrap();
+    let bench = Bench::with("damped.toml", machine(TWO));
+    bench.said(&["new", "press", "--machine", "damped.toml"]);
+    let text = bench.read("press/src/machine.rs");
     let places = [
         "const DAMPED: Train = Train::of(<Press as Machine>::CHAIN)",
         ".damper(1, Ratio(1.0), Damper { inertia: 0.1, stiffness: 3500.0, damping: 10.0 })",
@@ -192,35 +185,26 @@ fn a_project_has_the_dampers() {
 /// A pendulum on the roll of the README: without the check a drive was made; of three drawn machines two swung up.
 #[test]
 fn a_loop_without_margins_for_its_rings_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let (path, project) = (folder.path().join("roll.toml"), folder.path().join("roll"));
     let pendulum = "[[damper]]\nkind = \"pendulum\"\nat = \"roll\"\nmass = 2.0\nradius = 0.2\n\
                     order = 2.0\nspeed = 100.0\n";
-    std::fs::write(&path, include_str!("../../machines/roll.toml").to_owned() + pendulum).unwrap();
-    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-    let output = command.arg("new").arg(&project).arg("--machine").arg(&path).output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(!output.status.success() && said.contains("the speed loop with its observer"), "{said}");
-    assert!(!project.exists());
+    let bench = Bench::with("roll.toml", include_str!("../../machines/roll.toml").to_owned() + pendulum);
+    let said = bench.refused(&["new", "roll", "--machine", "roll.toml"]);
+    assert!(said.contains("the speed loop with its observer") && !bench.path("roll").exists(), "{said}");
 }
 
 /// The observer of a replay is designed with the dampers: its innovation is that of `design` at the same rate.
 #[test]
 fn a_replay_has_the_dampers() {
-    let folder = tempfile::tempdir().unwrap();
-    let (path, recording) = (folder.path().join("damped.toml"), folder.path().join("run.csv"));
     let text = machine("kind = \"tuned\"\nstiffness = 14000\ndamping = 40\n");
-    std::fs::write(&path, &text).unwrap();
+    let bench = Bench::with("damped.toml", &text);
     let row = |tick: i32| {
         let time = f64::from(tick) * 1e-4;
         format!("{time},10,{}\n", time * time)
     };
     let rows: String = (0..2000).map(row).collect();
-    std::fs::write(&recording, format!("time_s,torque_Nm,angle_rad\n{rows}")).unwrap();
-    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-    let output = command.arg("replay").arg(&recording).arg("--machine").arg(&path).arg("--json").output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let found = number(&serde_json::from_slice::<Value>(&output.stdout).unwrap()["predicted_innovation"]);
+    bench.write("run.csv", format!("time_s,torque_Nm,angle_rad\n{rows}"));
+    let found = bench.json(&["replay", "run.csv", "--machine", "damped.toml"]);
+    let found = number(&found["predicted_innovation"]);
     let file = parse("damped", &text).unwrap();
     let [with, without] = [Plan::with_dampers(&file).unwrap(), Plan::of(&file).unwrap()].map(|plan| plan.innovation);
     // the period of a recording is a mean of decimal times
@@ -302,8 +286,8 @@ fn a_campaign_names_the_hub_that_is_too_fast_with_a_damper() {
 #[test]
 fn the_sharp_peaks_of_a_weakly_damped_ring_are_found() {
     let (stiffness, damping) = (2.0e4, 1e-3);
-    let (found, _) =
-        modes(&machine(&format!("kind = \"tuned\"\nstiffness = {stiffness}\ndamping = {damping}\n")), false);
+    let keys = format!("kind = \"tuned\"\nstiffness = {stiffness}\ndamping = {damping}\n");
+    let found = answered("modes", &machine(&keys));
     // three masses in a row, at the motor: omega^4 - b omega^2 + c = 0
     let ([one, two, three], [first, second]) = ([MOTOR, LOAD / 4.0, RING / 4.0], [STIFFNESS, stiffness / 4.0]);
     let b = first * (1.0 / one + 1.0 / two) + second * (1.0 / two + 1.0 / three);
@@ -316,7 +300,7 @@ fn the_sharp_peaks_of_a_weakly_damped_ring_are_found() {
     let with = number(&found["dampers"][0]["with"]);
     // half a step over the half-width d omega/(2 k) = 4e-6, of which a mode has a tenth or more, squared
     assert!((with / largest - 1.0).abs() < 1e-5, "{with} {largest}");
-    let (found, page) = modes(&machine("kind = \"tuned\"\ndamping = 0\n"), true);
+    let (found, page) = modes(&machine("kind = \"tuned\"\ndamping = 0\n"));
     assert!(found["dampers"][0]["with"].is_null() && page.contains("undamped"), "{found}");
 }
 
@@ -331,7 +315,7 @@ fn an_undamped_mode_with_a_node_at_the_ring_does_not_count() {
         machine("kind = \"viscous\"\nmode = 2\n").split("[encoder]").nth(1).unwrap()
     );
     assert!(text.contains(&end), "{text}");
-    let (found, _) = modes(&text, false);
+    let found = answered("modes", &text);
     let damper = &found["dampers"][0];
     // the mode at sqrt(k/J) lies between half and twice that of the damper, sqrt(k (1/J + 2/J_load))
     let (node, mode) = (STIFFNESS / MOTOR, STIFFNESS * (1.0 / MOTOR + 2.0 / LOAD));
@@ -353,7 +337,7 @@ fn an_undamped_mode_with_a_node_at_the_ring_does_not_count() {
 #[test]
 fn damping_of_the_machine_limits_its_response_without_a_damper() {
     let damped = machine("kind = \"tuned\"\n").replace("stiffness = 40000\n", "stiffness = 40000\ndamping = 3\n");
-    let (found, _) = modes(&damped, false);
+    let found = answered("modes", &damped);
     let omega = f64::sqrt(STIFFNESS * 5.0 / 6.0);
     // psi^2/(D omega) with D = d omega^2/k, less the rigid turning at a right angle
     let peak = f64::hypot(1.0 / (7.5 * 3.0 / STIFFNESS * omega.powi(3)), 1.0 / (5.0 * omega * omega));
@@ -367,8 +351,6 @@ fn damping_of_the_machine_limits_its_response_without_a_damper() {
 /// Two masses, a viscous ring, which is no mass of its own, and fourteen or fifteen others: 16 masses or one more.
 #[test]
 fn a_ring_too_many_is_refused_by_all_that_design_with_dampers() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("damped.toml");
     let another = format!("[[damper]]\nat = \"load\"\ninertia = {RING}\nkind = \"absorber\"\nfrequency = 30.0\n");
     let rings = |count: usize| machine(&format!("kind = \"viscous\"\ndamping = 20\n{}", another.repeat(count - 1)));
     assert!(Plan::with_dampers(&parse("damped", &rings(15)).unwrap()).is_ok());
@@ -377,8 +359,8 @@ fn a_ring_too_many_is_refused_by_all_that_design_with_dampers() {
     assert_eq!(Plan::with_dampers(&file).unwrap_err(), expected);
     let refused = CampaignScene::of_file(file).map(|_| ()).unwrap_err();
     assert!(refused.contains(expected), "{refused}");
-    std::fs::write(&path, rings(16)).unwrap();
-    std::fs::write(folder.path().join("run.csv"), "").unwrap();
+    let bench = Bench::with("damped.toml", rings(16));
+    bench.write("run.csv", "");
     for arguments in [
         &["design", "damped.toml"][..],
         &["design", "damped.toml", "--emit", "rust"],
@@ -386,11 +368,8 @@ fn a_ring_too_many_is_refused_by_all_that_design_with_dampers() {
         &["export", "fmu", "damped.toml", "--out", "press.fmu"],
         &["replay", "run.csv", "--machine", "damped.toml"],
     ] {
-        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-        let output = command.args(arguments).current_dir(&folder).output().unwrap();
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.code() == Some(2) && said.contains(expected), "{arguments:?}: {said}");
-        assert!(output.stdout.is_empty(), "{arguments:?}");
+        let said = bench.refused(arguments);
+        assert!(said.contains(expected), "{arguments:?}: {said}");
     }
 }
 
@@ -424,14 +403,14 @@ fn friction_dampers_absorbers_and_pendulums_have_their_sizes() {
         // modes to rounding
         assert!((number(found) / expected - 1.0).abs() < 1e-9, "{found} {expected}");
     };
-    let (found, page) = modes(&machine("kind = \"friction\"\nexcitation = 3.0\n"), true);
+    let (found, page) = modes(&machine("kind = \"friction\"\nexcitation = 3.0\n"));
     let damper = &found["dampers"][0];
     close(&damper["friction"], torque);
     close(&damper["fixed_amplitude"], 0.25 * pi * pi / mu);
     close(&damper["with"], 0.25 * pi * pi / mu / main);
     assert!(page.contains("friction"), "{page}");
     // a load of its own: what the shaft of the motor and the load give without the ring
-    let (found, _) = modes(&machine("kind = \"absorber\"\nfrequency = 22.0\n"), false);
+    let found = answered("modes", &machine("kind = \"absorber\"\nfrequency = 22.0\n"));
     let damper = &found["dampers"][0];
     let swung = 22.0 * std::f64::consts::TAU;
     close(&damper["stiffness"], RING * swung * swung);
@@ -443,7 +422,7 @@ fn friction_dampers_absorbers_and_pendulums_have_their_sizes() {
     // it stands still but for rounding
     assert!(number(&damper["with"]) < 1e-12 * bare(swung) && damper["mode"].is_null(), "{damper}");
     let pendulum = machine("kind = \"pendulum\"\nmass = 0.9\nradius = 0.12\norder = 1.5\nspeed = 80.0\n");
-    let (found, _) = modes(&pendulum.replace("inertia = 0.8\n", ""), false);
+    let found = answered("modes", &pendulum.replace("inertia = 0.8\n", ""));
     let damper = &found["dampers"][0];
     let length = 0.12 / 2.25;
     close(&damper["length"], length);
@@ -545,13 +524,7 @@ fn a_friction_damper_holds_the_load_in_a_run() {
             0.25 * PI,
             2.0 * PI / omega
         );
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("friction.toml");
-    std::fs::write(&path, text).unwrap();
-    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-    let output = command.args(["simulate", path.to_str().unwrap(), "--json"]).output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let found = answered("simulate", &text);
     assert!(number(&found["proof"][0]) <= 1e-8, "{found}");
     let greatest = |found: &Value| number(&found["links"][0]["greatest"]);
     // the shaft carries k psi_1/psi_2 (1 - psi_2/psi_1) of the load's swing: its twist is 2.5 times that

@@ -72,7 +72,7 @@ fn critical_speeds_of_a_six_in_line_with_their_phasor_sums() {
 
 fn critical_speeds(damping: [f64; 5]) {
     let text = six(&engine()).replacen(&format!("damping = {DAMPING}"), &format!("damping = {}", damping[0]), 1);
-    let (found, page) = modes(&text, true);
+    let (found, page) = modes(&text);
     let critical = found["critical"].as_array().unwrap();
     assert_eq!(critical.len(), 5 * 5);
     // firing angles in thirds of a turn
@@ -131,7 +131,7 @@ fn free_forces_of_one_cylinder_behind_a_gear() {
          stiffness = 1e4\n[[branch.element]]\nkind = \"rotor\"\nlabel = \"slow\"\ninertia = 3\n",
     ];
     let (found, page) =
-        modes(&six(&one.replace("\"6\"", "\"slow\"")).replace("[encoder]", &format!("{behind}[encoder]")), true);
+        modes(&six(&one.replace("\"6\"", "\"slow\"")).replace("[encoder]", &format!("{behind}[encoder]")));
     // 200 rad/s of the motor are 50 rad/s of the crankshaft
     assert_eq!(number(&found["engine"]["speed"]), 50.0);
     let first = 0.5 * 0.05 * 2500.0;

@@ -4,9 +4,9 @@
 //! Between two contacts a train without damping is the sum of its modes, so a run is in closed form but for the times
 //! of the contacts, which are roots.
 
-use std::process::Command;
-
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+
+use super::bench::answered;
 
 /// A link of three coordinates: its force is `stiffness (e - high)` above `high`, `stiffness (e - low)` below `low`.
 struct Link {
@@ -157,13 +157,7 @@ fn simulated(name: &str, undamped: &[&str]) -> serde_json::Value {
     }
     // without damping a gap's bounces multiply roundings: until the first impacts behind the reversal
     text = text.replace("time = 6.0", "time = 4.2");
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("undamped.toml");
-    std::fs::write(&file, text).unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-    let output = command.args(["simulate", file.to_str().unwrap(), "--json"]).output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).unwrap()
+    answered("simulate", &text)
 }
 
 /// Roundings of the run, which the bounces of the travelling drive multiply.

@@ -3,15 +3,14 @@
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
 use cargo_driveline::identification::{Figures, NotIdentified, Refusal, identify};
-use cargo_driveline::recording::{Asked, Quantity, read_recording};
+use cargo_driveline::recording::{Asked, Quantity, Recording, read_recording};
 use driveline::commissioning::Figure;
 use driveline_solver::noise::Noise;
 use driveline_solver::plant::{Chain, Shaft};
-use serde_json::Value;
+
+use super::bench::Bench;
 
 const BENCH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/recordings/two-mass-bench.csv");
 /// The bench as others found it, by both encoders: inertias (kg m2), stiffness (N m/rad) and damping (N m s/rad).
@@ -19,26 +18,17 @@ const INERTIAS: [f64; 2] = [2.747e-3, 2.746e-3];
 const SHAFT: [f64; 2] = [315.0, 5.8e-3];
 const RESONANCES: [f64; 2] = [76.2, 53.9];
 
-fn driveline(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_cargo-driveline")).args(arguments).output().unwrap()
-}
+/// Rate of the bench's record, and torque over current of its motor.
+const RECORDED: [&str; 4] = ["--rate", "2500", "--torque-constant", "0.564"];
 
-fn json(output: &Output) -> Value {
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).unwrap()
-}
-
-fn path(folder: &Path, name: &str) -> PathBuf {
-    folder.join(name)
+fn recording(text: &str) -> Recording {
+    read_recording(&Bench::with("log.csv", text).path("log.csv"), &Asked::default()).unwrap()
 }
 
 #[test]
 fn half_of_the_benchs_record_gives_the_machine_and_the_observer_follows_the_other_half() {
-    let folder = tempfile::tempdir().unwrap();
-    let [machine, table] = ["bench.toml", "bench.csv"].map(|name| path(folder.path(), name));
-    let (machine, table) = (machine.to_str().unwrap(), table.to_str().unwrap());
-    let common = ["--rate", "2500", "--torque-constant", "0.564", "--json"];
-    let found = json(&driveline(&[&["identify", BENCH, "--to", "5", "--toml", machine], &common[..]].concat()));
+    let bench = Bench::new();
+    let found = bench.json(&[&["identify", BENCH, "--to", "5", "--toml", "bench.toml"], &RECORDED[..]].concat());
     let figure = |name: &str| ["value", "standard_deviation"].map(|of| found[name][of].as_f64().unwrap());
     // the issue's tolerances, and three of the figures' own deviations
     for (name, truth, tolerance) in [
@@ -52,13 +42,13 @@ fn half_of_the_benchs_record_gives_the_machine_and_the_observer_follows_the_othe
         assert!((value - truth).abs() < 3.0 * deviation, "{name}: {value} by {deviation}, not {truth}");
     }
     let delay = figure("dead_time")[0].to_string();
-    let options = ["--machine", machine, "--from", "5", "--delay", &delay, "--csv", table];
-    let replayed = json(&driveline(&[&["replay", BENCH], &options[..], &common[..]].concat()));
+    let options = ["--machine", "bench.toml", "--from", "5", "--delay", &delay, "--csv", "bench.csv"];
+    let replayed = bench.json(&[&["replay", BENCH], &options[..], &RECORDED].concat());
     assert_eq!(replayed["samples"], 12_500);
     let settling = replayed["settling"].as_u64().unwrap() as usize;
     // the truth from both encoders and the bench as others found it, not from the machine that was identified
     let rows = rows(&std::fs::read_to_string(BENCH).unwrap());
-    let estimates = rows_of(&std::fs::read_to_string(table).unwrap());
+    let estimates = rows_of(&bench.read("bench.csv"));
     for number in ["f32", "fixed"] {
         let column = |name: &str| estimates.0.iter().position(|head| *head == format!("{number}_{name}")).unwrap();
         let (speed, torque) = (column("load_speed_rad_s"), column("shaft_torque_Nm"));
@@ -78,21 +68,18 @@ fn half_of_the_benchs_record_gives_the_machine_and_the_observer_follows_the_othe
 /// An encoder's angle that comes round at every turn, as a drive tells it, gives the same machine.
 #[test]
 fn an_angle_that_comes_round_gives_the_same_machine() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = path(folder.path(), "wrapped.csv");
     let (heads, rows) = rows_of(&std::fs::read_to_string(BENCH).unwrap());
     let mut text = heads.join(",") + "\n";
     for row in &rows {
         // the zero lies where the record begins, so the swing passes it again and again
         writeln!(text, "{},{},{}", row[0], (row[1] - rows[0][1]).rem_euclid(TAU), row[2]).unwrap();
     }
-    std::fs::write(&file, text).unwrap();
+    let bench = Bench::with("wrapped.csv", text);
     let found = |file: &str| {
-        let options = ["--to", "5", "--rate", "2500", "--torque-constant", "0.564", "--json"];
-        let found = json(&driveline(&[&["identify", file], &options[..]].concat()));
+        let found = bench.json(&[&["identify", file, "--to", "5"], &RECORDED[..]].concat());
         ["resonance", "motor_inertia"].map(|name| found[name]["value"].as_f64().unwrap())
     };
-    for (wrapped, whole) in found(file.to_str().unwrap()).into_iter().zip(found(BENCH)) {
+    for (wrapped, whole) in found("wrapped.csv").into_iter().zip(found(BENCH)) {
         // the zero of the angle is no part of the machine: what rounding moves
         assert!((wrapped / whole - 1.0).abs() < 1e-6, "{wrapped} for {whole}");
     }
@@ -200,14 +187,10 @@ fn simulated_as(seed: u64, machine: Machine) -> ([f64; 4], String) {
 
 #[test]
 fn fifty_simulated_machines_are_found_within_their_own_deviations() {
-    let folder = tempfile::tempdir().unwrap();
     let (mut beyond, mut all) = (0, 0);
     for seed in 1..=50 {
         let (truth, text) = simulated(seed);
-        let file = path(folder.path(), "log.csv");
-        std::fs::write(&file, text).unwrap();
-        let recording = read_recording(&file, &Asked::default()).unwrap();
-        let found = identify(&recording, None).unwrap_or_else(|error| panic!("{seed}: {error}"));
+        let found = identify(&recording(&text), None).unwrap_or_else(|error| panic!("{seed}: {error}"));
         let Figures { resonance, antiresonance, motor_inertia, load_inertia, .. } = found.estimate.figures;
         let figures = [resonance, antiresonance, motor_inertia, load_inertia];
         // the issue's tolerances
@@ -224,8 +207,6 @@ fn fifty_simulated_machines_are_found_within_their_own_deviations() {
 /// figures have the deviations that it gives them.
 #[test]
 fn the_counts_of_a_coarse_encoder_are_no_gap() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = path(folder.path(), "log.csv");
     let (mut beyond, mut all) = (0, 0);
     for seed in 1..=10 {
         let (truth, text) = simulated(seed);
@@ -239,9 +220,7 @@ fn the_counts_of_a_coarse_encoder_are_no_gap() {
             writeln!(text, "{},{},{}", row[0], row[1], (angle / count).round() * count).unwrap();
             angle += period * row[2];
         }
-        std::fs::write(&file, text).unwrap();
-        let recording = read_recording(&file, &Asked::default()).unwrap();
-        let found = identify(&recording, None).unwrap_or_else(|error| panic!("{seed}: {error}")).estimate;
+        let found = identify(&recording(&text), None).unwrap_or_else(|error| panic!("{seed}: {error}")).estimate;
         assert!(found.unexplained > 0.4, "{seed}: {}", found.unexplained);
         let Figures { resonance, antiresonance, motor_inertia, load_inertia, .. } = found.figures;
         for (figure, truth) in [resonance, antiresonance, motor_inertia, load_inertia].into_iter().zip(truth) {
@@ -255,13 +234,10 @@ fn the_counts_of_a_coarse_encoder_are_no_gap() {
 /// Friction and gap are told apart: two masses stay two masses under a multisine.
 #[test]
 fn two_masses_under_a_multisine_are_found() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = path(folder.path(), "log.csv");
     for seed in 1..=6 {
         let ([_, _, motor, load], text) = simulated_as(seed, Machine::Multisine);
-        std::fs::write(&file, text).unwrap();
-        let recording = read_recording(&file, &Asked::default()).unwrap();
-        let found = identify(&recording, None).unwrap_or_else(|error| panic!("{seed}: {error}")).estimate.model;
+        let found = identify(&recording(&text), None).unwrap_or_else(|error| panic!("{seed}: {error}"));
+        let found = found.estimate.model;
         // noise of 1 % in both signals
         assert!((found.motor / motor - 1.0).abs() < 0.02 && (found.load / load - 1.0).abs() < 0.02, "{found:?}");
     }
@@ -271,8 +247,6 @@ fn two_masses_under_a_multisine_are_found() {
 #[test]
 fn what_is_not_two_masses_is_named() {
     let contact = "a gap (backlash) opens, a rope or shaft goes slack";
-    let folder = tempfile::tempdir().unwrap();
-    let file = path(folder.path(), "log.csv");
     let mut wrong = Vec::new();
     for (machine, words) in [
         (Machine::TwoMasses, "has the other sign"),
@@ -292,9 +266,7 @@ fn what_is_not_two_masses_is_named() {
                 }
                 _ => text,
             };
-            std::fs::write(&file, text).unwrap();
-            let recording = read_recording(&file, &Asked::default()).unwrap();
-            match identify(&recording, None) {
+            match identify(&recording(&text), None) {
                 Err(refusal) if refusal.to_string().contains(words) => {
                     if let NotIdentified::Refused(Refusal::Rigid { rigid, .. }) = refusal {
                         // noise of 1 % in both signals
@@ -332,8 +304,6 @@ fn response(frequency: f64) -> [f64; 2] {
 
 #[test]
 fn a_table_of_a_response_gives_the_machine() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = path(folder.path(), "response.csv");
     let mut noise = Noise::new(5);
     let mut text = "frequency_Hz,magnitude [dB],phase_deg\n".to_owned();
     for line in 0..120 {
@@ -343,8 +313,7 @@ fn a_table_of_a_response_gives_the_machine() {
         let [re, im] = [re, im].map(|part| part + 0.01 * re.hypot(im) * noise.normal());
         writeln!(text, "{hertz:.6},{:.6},{:.6}", 20.0 * re.hypot(im).log10(), im.atan2(re).to_degrees()).unwrap();
     }
-    std::fs::write(&file, text).unwrap();
-    let found = json(&driveline(&["identify", file.to_str().unwrap(), "--response", "speed", "--json"]));
+    let found = Bench::with("response.csv", text).json(&["identify", "response.csv", "--response", "speed"]);
     let truths = [
         ("resonance", (800.0_f64 * (1.0 / 0.02 + 1.0 / 0.05)).sqrt(), 0.01),
         ("antiresonance", (800.0_f64 / 0.05).sqrt(), 0.01),
@@ -365,11 +334,8 @@ fn useless_records_are_refused_with_their_reason() {
     let (_, good) = simulated(2);
     let rows = rows(&good);
     let largest = rows.iter().fold(0.0_f64, |size, row| size.max(row[2].abs()));
-    let folder = tempfile::tempdir().unwrap();
     let refused = |text: &str| {
-        let file = path(folder.path(), "log.csv");
-        std::fs::write(&file, text).unwrap();
-        let output = driveline(&["identify", file.to_str().unwrap(), "--html", "/dev/null"]);
+        let output = Bench::with("log.csv", text).run(&["identify", "log.csv"]);
         assert!(!output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
         String::from_utf8(output.stderr).unwrap()
     };
@@ -411,10 +377,7 @@ fn useless_records_are_refused_with_their_reason() {
 
 /// What `identify` says of a file's bytes, and its exit code.
 fn answered(bytes: &[u8], options: &[&str]) -> (Option<i32>, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let file = path(folder.path(), "log.csv");
-    std::fs::write(&file, bytes).unwrap();
-    let output = driveline(&[&["identify", file.to_str().unwrap(), "--json"], options].concat());
+    let output = Bench::with("log.csv", bytes).run(&[&["identify", "log.csv", "--json"], options].concat());
     (output.status.code(), String::from_utf8(output.stderr).unwrap())
 }
 
@@ -515,14 +478,12 @@ fn a_file_in_another_encoding_is_told_with_its_line_and_a_remedy() {
 
 #[test]
 fn what_is_asked_of_a_machine_or_is_the_loads_is_not_the_motors() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = path(folder.path(), "log.csv");
     let headings = "time_s,load_current_A,torque_setpoint_Nm,speed_setpoint_rad/s,load_acceleration [rad/s2],\
                     speed_error_rpm,target_angle_rad,torque_command_Nm";
-    std::fs::write(&file, format!("{headings}\n0,1,2,3,4,5,6,7\n1,1,2,3,4,5,6,8\n")).unwrap();
+    let bench = Bench::with("log.csv", format!("{headings}\n0,1,2,3,4,5,6,7\n1,1,2,3,4,5,6,8\n"));
     let read = |columns: &[&str]| {
         let columns = columns.iter().map(|&column| column.to_owned()).collect();
-        read_recording(&file, &Asked { columns, ..Asked::default() }).unwrap()
+        read_recording(&bench.path("log.csv"), &Asked { columns, ..Asked::default() }).unwrap()
     };
     let recording = read(&[]);
     let quantities: Vec<Quantity> = recording.columns.iter().map(|column| column.quantity).collect();
@@ -533,7 +494,7 @@ fn what_is_asked_of_a_machine_or_is_the_loads_is_not_the_motors() {
 }
 
 /// A recording of a motor, a gear of 80 % and a load that a weight of 10 N m pulls, always motoring; its machine file.
-fn geared(folder: &Path, gap: &str) -> [PathBuf; 2] {
+fn geared(gap: &str) -> Bench {
     let shaft = Shaft::elastic(800.0).damping(0.1);
     let mut plant = Chain::motor(0.02).efficiency(0.8).shaft(shaft, 0.05).load(10.0).build().unwrap();
     let mut text = "time_s,torque_Nm,angle_rad,speed_rad_per_s,shaft_torque_Nm\n".to_owned();
@@ -554,17 +515,16 @@ fn geared(folder: &Path, gap: &str) -> [PathBuf; 2] {
          [disturbance]\ntorque_accuracy = 0.1\nload_torque_step = 5.0\nwithin = 1.0\n\
          [limits]\ntorque = 40.0\nspeed = 100.0\n"
     );
-    let files = ["geared.csv", "geared.toml"].map(|name| path(folder, name));
-    std::fs::write(&files[0], text).unwrap();
-    std::fs::write(&files[1], machine).unwrap();
-    files
+    let bench = Bench::with("geared.csv", text);
+    bench.write("geared.toml", machine);
+    bench
 }
+
+const REPLAY: [&str; 5] = ["replay", "geared.csv", "--machine", "geared.toml", "--held"];
 
 #[test]
 fn a_replay_deducts_the_losses_of_the_gear() {
-    let folder = tempfile::tempdir().unwrap();
-    let [recording, machine] = geared(folder.path(), "").map(|file| file.to_str().unwrap().to_owned());
-    let replayed = json(&driveline(&["replay", &recording, "--machine", &machine, "--held", "--json"]));
+    let replayed = geared("").json(&REPLAY);
     assert_eq!(replayed["gear_efficiency"], 0.8);
     for number in replayed["numbers"].as_array().unwrap() {
         // the loss of 2.5 N m is 1.5 times the rms of the shaft torque's 2.3 N m of amplitude; what is left is the lag
@@ -575,15 +535,10 @@ fn a_replay_deducts_the_losses_of_the_gear() {
 
 #[test]
 fn a_gap_that_a_replay_ignores_is_said() {
-    let folder = tempfile::tempdir().unwrap();
-    let [recording, machine] = geared(folder.path(), "[[element]]\nkind = \"backlash\"\ngap = 0.01\n")
-        .map(|file| file.to_str().unwrap().to_owned());
-    let command = ["replay", &recording, "--machine", &machine, "--held", "--html", "/dev/null"];
-    let output = driveline(&command);
-    let said = String::from_utf8(output.stderr.clone()).unwrap();
+    let bench = geared("[[element]]\nkind = \"backlash\"\ngap = 0.01\n");
+    let said = String::from_utf8(bench.run(&REPLAY).stderr).unwrap();
     assert!(said.contains("0.0100 rad at the motor, ignored"), "{said}");
-    let replayed = json(&driveline(&[&command[..5], &["--json"]].concat()));
-    assert_eq!(replayed["gap_ignored"], 0.01);
+    assert_eq!(bench.json(&REPLAY)["gap_ignored"], 0.01);
 }
 
 #[test]
@@ -591,10 +546,8 @@ fn a_delay_is_shorter_than_its_recording() {
     const AXIS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/axis.toml");
     // the bench's record has 10 s; beyond 2^63 ticks a delay had no place in a number at all
     for delay in ["100", "10", "3.7e15"] {
-        let options = ["--machine", AXIS, "--rate", "2500", "--torque-constant", "0.564", "--delay", delay];
-        let output = driveline(&[&["replay", BENCH], &options[..]].concat());
-        let sentence = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{sentence}");
+        let options = ["replay", BENCH, "--machine", AXIS, "--delay", delay];
+        let sentence = Bench::new().refused(&[&options[..], &RECORDED].concat());
         assert!(sentence.contains("expected seconds below the recording's length of 10.0 s"), "{sentence}");
     }
 }
@@ -602,16 +555,11 @@ fn a_delay_is_shorter_than_its_recording() {
 #[test]
 fn a_decimal_comma_is_read_where_no_comma_separates() {
     let (_, good) = simulated(2);
-    let folder = tempfile::tempdir().unwrap();
-    let file = path(folder.path(), "log.csv");
-    let told = |text: &str| {
-        std::fs::write(&file, text).unwrap();
-        driveline(&["identify", file.to_str().unwrap(), "--json"])
-    };
-    let with_points = json(&told(&good));
+    let told = |text: &str| Bench::with("log.csv", text).json(&["identify", "log.csv"]);
+    let with_points = told(&good);
     for separator in [";", "\t"] {
         // the same digits, so that the numbers are the same bits
-        assert_eq!(json(&told(&good.replace(',', separator).replace('.', ","))), with_points, "{separator}");
+        assert_eq!(told(&good.replace(',', separator).replace('.', ",")), with_points, "{separator}");
     }
     let whole = "time_s;torque_Nm;speed_rpm\n";
     // three digits behind a comma are no thousands where another number has one or two, or a zero before it
@@ -620,7 +568,7 @@ fn a_decimal_comma_is_read_where_no_comma_separates() {
         [["999", "1,025", "1,5"], ["999", "1,025", "-0,125"], ["99", "1,025", "1,000"], ["999", "1000", "1,025"]]
     {
         let rows: Vec<String> = speeds.iter().enumerate().map(|(k, speed)| format!("{k};1;{speed}\n")).collect();
-        let sentence = String::from_utf8(told(&format!("{whole}{}", rows.concat())).stderr).unwrap();
+        let (_, sentence) = answered(format!("{whole}{}", rows.concat()).as_bytes(), &[]);
         assert!(!sentence.contains("thousands"), "{sentence}");
     }
     for (text, words) in [
@@ -651,17 +599,13 @@ fn a_rate_beside_a_column_of_time_is_refused() {
     let text = "torque_Nm,time_s,speed_rpm\n1,0,0\n2,0.001,1\n";
     let (code, sentence) = answered(text.as_bytes(), &["--rate", "1000"]);
     assert!(code == Some(2) && sentence.contains(words), "{code:?}: {sentence}");
-    let folder = tempfile::tempdir().unwrap();
-    let file = path(folder.path(), "log.csv");
-    std::fs::write(&file, "tooth_time_s\n0\n0.1\n").unwrap();
-    let teeth = driveline(&["replay", file.to_str().unwrap(), "--rate", "1000", "--teeth", "60-2"]);
-    let sentence = String::from_utf8(teeth.stderr).unwrap();
+    let bench = Bench::with("log.csv", "tooth_time_s\n0\n0.1\n");
+    let sentence = bench.refused(&["replay", "log.csv", "--rate", "1000", "--teeth", "60-2"]);
     assert!(sentence.contains("`tooth_time_s`: found --rate beside a column of tooth-time"), "{sentence}");
-    std::fs::write(&file, text).unwrap();
+    bench.write("log.csv", text);
     for part in [&["--machine", AXIS][..], &["--teeth", "60-2"], &["--fluctuation"], &["--phasors"]] {
-        let output = driveline(&[&["replay", file.to_str().unwrap(), "--rate", "1000"], part].concat());
-        let sentence = String::from_utf8(output.stderr).unwrap();
-        assert!(output.status.code() == Some(2) && sentence.contains(words), "{part:?}: {sentence}");
+        let sentence = bench.refused(&[&["replay", "log.csv", "--rate", "1000"], part].concat());
+        assert!(sentence.contains(words), "{part:?}: {sentence}");
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::process::{Command, Output};
 
+use super::bench::Bench;
+
 fn out(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).unwrap()
 }
@@ -14,8 +16,8 @@ fn err(output: &Output) -> String {
 /// does.
 #[test]
 fn the_installed_commands_are_the_designers() {
-    let output = Command::new(env!("CARGO_BIN_EXE_cargo-driveline")).args(["driveline", "--help"]).output().unwrap();
-    let help = out(&output);
+    let bench = Bench::new();
+    let help = bench.said(&["--help"]);
     let (_, page) =
         include_str!("../../../../doc/commands.md").split_once("| for | `cargo driveline` |\n|---|---|\n").unwrap();
     let mut names = 0;
@@ -35,38 +37,31 @@ fn the_installed_commands_are_the_designers() {
         assert!(lines.iter().all(|line| line.split_whitespace().count() > 3), "{help}");
         names += listed.len();
     }
-    let man = Command::new(env!("CARGO_BIN_EXE_cargo-driveline")).args(["driveline", "shell", "man"]).output().unwrap();
+    let man = bench.said(&["shell", "man"]);
     // the manual page lists them all, and `help`
-    assert_eq!(out(&man).matches(".TP\ncargo\\-driveline\\-").count(), names + 1, "{}", out(&man));
+    assert_eq!(man.matches(".TP\ncargo\\-driveline\\-").count(), names + 1, "{man}");
 }
 
 /// The label of an error is red where that is asked for, and plain in a pipe.
 #[test]
 fn an_error_is_coloured_as_asked() {
+    let bench = Bench::new();
     for (options, is_red) in [(&["--color", "always"][..], true), (&["--color=never"], false), (&[], false)] {
         for arguments in [&["modes", "none.toml"][..], &["modes", "--no-such-option"]] {
-            let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-            let said = err(&command.arg("driveline").args(arguments).args(options).output().unwrap());
+            let said = err(&bench.run(&[arguments, options].concat()));
             assert_eq!(said.starts_with("\x1b[1;31merror:\x1b[0m "), is_red, "{options:?}: {said:?}");
             assert!(is_red || said.starts_with("error: "), "{said:?}");
         }
     }
-    let wrong = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"))
-        .args(["driveline", "modes", "--color", "red"])
-        .output()
-        .unwrap();
-    assert_eq!(wrong.status.code(), Some(2));
+    bench.refused(&["modes", "--color", "red"]);
 }
 
 /// Completions and manual page name every command and the options of one; JSON has the version of its keys.
 #[test]
 fn a_shell_completes_every_command() {
-    let run = |arguments: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-        out(&command.arg("driveline").args(arguments).output().unwrap())
-    };
+    let bench = Bench::new();
     for form in ["bash", "elvish", "fish", "zsh", "man"] {
-        let printed = run(&["shell", form]);
+        let printed = bench.said(&["shell", form]);
         for word in ["design", "campaign", "balancing", "watch"] {
             assert!(printed.contains(word), "{form} has no {word}");
         }
@@ -76,28 +71,17 @@ fn a_shell_completes_every_command() {
     let ask = "COMP_WORDS=(cargo-driveline des); COMP_CWORD=1; registered=$(complete -p cargo-driveline)\n\
         registered=${registered#*-F }; ${registered%% *} cargo-driveline des cargo-driveline\n\
         echo \"found ${COMPREPLY[*]}\"";
-    let script = format!("{}\n{ask}", run(&["shell", "bash"]));
+    let script = format!("{}\n{ask}", bench.said(&["shell", "bash"]));
     let completed = Command::new("bash").args(["-c", &script]).output().unwrap();
     assert!(out(&completed).contains("found design"), "{completed:?}");
-    let json: serde_json::Value = serde_json::from_str(&run(&["example", "hoist", "--json"])).unwrap();
-    assert_eq!(json["schema"], 1);
+    assert_eq!(bench.json(&["example", "hoist"])["schema"], 1);
 }
 
 /// In a folder of nothing: what a file is needed for gets it from the program, what a clone is needed for says so.
 #[test]
 fn an_installed_command_works_in_any_folder() {
-    let folder = tempfile::tempdir().unwrap();
-    let run = |arguments: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-        command
-            .arg("driveline")
-            .args(arguments)
-            .current_dir(folder.path())
-            .env_remove("CARGO_TARGET_DIR")
-            .output()
-            .unwrap()
-    };
-    let names = out(&run(&["example"]));
+    let bench = Bench::new();
+    let names = bench.said(&["example"]);
     for line in names.lines() {
         let (name, commands) = (line[..15].trim(), line[16..33].trim());
         // a recording of another rate and sensor needs them said: below
@@ -105,16 +89,14 @@ fn an_installed_command_works_in_any_folder() {
             continue;
         }
         let file = format!("{name}.toml");
-        std::fs::write(folder.path().join(&file), out(&run(&["example", name]))).unwrap();
+        bench.write(&file, bench.said(&["example", name]));
         for command in commands.split(", ") {
-            let output = run(&[command, &file]);
-            assert!(output.status.success(), "{command} {file}: {}", err(&output));
+            bench.said(&[command, &file]);
         }
     }
-    std::fs::write(folder.path().join("bench.csv"), out(&run(&["example", "bench-log"]))).unwrap();
+    bench.write("bench.csv", bench.said(&["example", "bench-log"]));
     let recorded = ["bench.csv", "--rate", "2500", "--torque-constant", "0.564"];
     for options in [&["identify", "--to", "5", "--toml", "bench.toml"][..], &["replay", "--machine", "bench.toml"]] {
-        let output = run(&[options, &recorded].concat());
-        assert!(output.status.success(), "{options:?}: {}", err(&output));
+        bench.said(&[options, &recorded].concat());
     }
 }

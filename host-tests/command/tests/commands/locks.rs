@@ -1,12 +1,11 @@
 //! Gears that lock themselves, as elements: each holds its load in every command and in both FMUs.
 
-use std::path::Path;
-use std::process::Command;
-
 use cargo_driveline::campaign::file::FileCase;
 use cargo_driveline::cosim::fmu::Fmu;
 use cargo_driveline::machine_file::parse;
 use driveline_closed_loop::departure::Departure;
+
+use super::bench::{Bench, answered};
 
 const SETTINGS: &str = "[encoder]\nlines = 2048\n[control]\nrate_hz = 4000\n[disturbance]\ntorque_accuracy = 4.0\n\
     load_torque_step = 150.0\nwithin = 10.0\n[limits]\ntorque = 600.0\nspeed = 150.0\n";
@@ -41,13 +40,6 @@ fn machine((kind, ratio, mass): (&str, &str, f64), rope: bool, back_efficiency: 
     .concat()
 }
 
-fn command(arguments: &[&str], folder: &Path) -> String {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-    let ended = command.arg("driveline").args(arguments).current_dir(folder).output().unwrap();
-    assert!(ended.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&ended.stderr));
-    String::from_utf8(ended.stdout).unwrap()
-}
-
 /// Turn of the motor by which a shaft unwinds that carries the load at the start, and swings about what it held (rad).
 const UNWINDS: f64 = 0.2;
 /// Turn of the motor by which the load falls in half a second where the gear does not lock (rad): 5 m/s2 of free fall
@@ -57,14 +49,10 @@ const FALLS: f64 = 1.0;
 /// Without a torque of the motor the mass in front of the gear does not turn, from rest to the last bit.
 #[test]
 fn a_gear_that_locks_holds_its_load_in_simulate() {
-    let place = tempfile::tempdir().unwrap();
     for gear in GEARS {
         for (rope, back_efficiency, holds) in [(true, -0.1, true), (false, -0.1, true), (true, 0.6, false)] {
             let text = machine(gear, rope, back_efficiency) + "[run]\ntime = 0.5\nstep = 1e-3\n";
-            std::fs::write(place.path().join("m.toml"), text).unwrap();
-            let said = command(&["simulate", "m.toml", "--json"], place.path());
-            let run: serde_json::Value = serde_json::from_str(&said).unwrap();
-            let second = &run["coordinates"][1];
+            let second = &answered("simulate", &text)["coordinates"][1];
             let [least, greatest] = ["least", "greatest"].map(|key| second[key].as_f64().unwrap());
             assert_eq!((least, greatest) == (0.0, 0.0), holds, "{gear:?} {rope} {back_efficiency}: {second}");
         }
@@ -96,15 +84,14 @@ fn a_gear_that_locks_holds_its_load_in_a_campaign() {
 /// Plant FMUs with a shaft behind the gear and without; the drive, an FMU too, comes to rest and stays there.
 #[test]
 fn a_gear_that_locks_holds_its_load_in_both_fmus() {
-    let place = tempfile::tempdir().unwrap();
-    let folder = place.path();
+    let bench = Bench::new();
     for (gear, rope) in [(GEARS[0], true), (GEARS[2], false)] {
-        std::fs::write(folder.join("m.toml"), machine(gear, rope, -0.1)).unwrap();
-        command(&["export", "fmu", "m.toml", "--of", "plant", "--out", "plant.fmu"], folder);
+        bench.write("m.toml", machine(gear, rope, -0.1));
+        bench.said(&["export", "fmu", "m.toml", "--of", "plant", "--out", "plant.fmu"]);
         // of the second mass, at the gear or with the gear in it
         let number = 2;
         for (back_efficiency, holds) in [(-0.1, true), (0.6, false)] {
-            let mut plant = Fmu::open(&folder.join("plant.fmu")).unwrap();
+            let mut plant = Fmu::open(&bench.path("plant.fmu")).unwrap();
             let reference = |name: &str| {
                 let mut of = plant.description.variables.iter();
                 of.find(|variable| variable.name == name).unwrap_or_else(|| panic!("no {name}")).reference
@@ -127,8 +114,8 @@ fn a_gear_that_locks_holds_its_load_in_both_fmus() {
         }
         let setpoints = ["--setpoint", "0", "--setpoint", "0.5:20", "--setpoint", "2:0", "--time", "5"];
         let table = [&["cosim", "m.toml", "plant.fmu", "--csv", "run.csv", "--json"], &setpoints[..]].concat();
-        command(&table, folder);
-        let run = std::fs::read_to_string(folder.join("run.csv")).unwrap();
+        bench.said(&table);
+        let run = bench.read("run.csv");
         let [angle, faults] = ["machine.motor_angle", "faults"].map(|name| column(&run, name));
         let at = |time: f64| angle[(4000.0 * time) as usize];
         println!("{gear:?} {} {} {} {}", at(0.5), at(2.0), at(4.0), angle[angle.len() - 1]);
@@ -141,15 +128,9 @@ fn a_gear_that_locks_holds_its_load_in_both_fmus() {
 /// Without inertia enough in front of it a rigid gear has no motion in which the load drives it.
 #[test]
 fn a_gear_that_would_stop_its_load_at_once_is_refused() {
-    let place = tempfile::tempdir().unwrap();
-    std::fs::write(place.path().join("m.toml"), machine(GEARS[0], false, -0.9)).unwrap();
-    let mut export = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-    export
-        .args(["driveline", "export", "fmu", "m.toml", "--of", "plant", "--out", "plant.fmu"])
-        .current_dir(place.path());
-    let ended = export.output().unwrap();
-    let said = String::from_utf8(ended.stderr).unwrap();
-    assert!(ended.status.code() == Some(2) && said.contains("`rotor + load` would stop at once"), "{said}");
+    let bench = Bench::with("m.toml", machine(GEARS[0], false, -0.9));
+    let said = bench.refused(&["export", "fmu", "m.toml", "--of", "plant", "--out", "plant.fmu"]);
+    assert!(said.contains("`rotor + load` would stop at once"), "{said}");
 }
 
 /// Drive and machine mean the same torque: that of the rope, behind the gear's loss. In each 50 ms once the gear turns
@@ -157,12 +138,10 @@ fn a_gear_that_would_stop_its_load_at_once_is_refused() {
 /// the lift among them, within 0.1 % of the weight.
 #[test]
 fn the_hoists_two_fmus_agree_on_the_torque_of_its_rope() {
-    let place = tempfile::tempdir().unwrap();
-    let folder = place.path();
-    std::fs::write(folder.join("hoist.toml"), command(&["example", "hoist"], folder)).unwrap();
-    command(&["export", "fmu", "hoist.toml", "--of", "plant", "--out", "plant.fmu"], folder);
-    command(&["cosim", "hoist.toml", "plant.fmu", "--csv", "run.csv", "--json"], folder);
-    let run = std::fs::read_to_string(folder.join("run.csv")).unwrap();
+    let bench = Bench::with("hoist.toml", include_str!("../../machines/hoist.toml"));
+    bench.said(&["export", "fmu", "hoist.toml", "--of", "plant", "--out", "plant.fmu"]);
+    bench.said(&["cosim", "hoist.toml", "plant.fmu", "--csv", "run.csv", "--json"]);
+    let run = bench.read("run.csv");
     let [estimated, rope, load] =
         ["drive.shaft_torque", "machine.shaft_torque[2]", "drive.load_torque"].map(|name| column(&run, name));
     let errors: Vec<f64> = estimated.iter().zip(&rope).map(|(estimate, torque)| estimate / torque - 1.0).collect();

@@ -23,6 +23,8 @@ use nalgebra::{Complex, DMatrix};
 use rustfft::FftPlanner;
 use serde_json::Value;
 
+use super::bench::Bench;
+
 /// Periods of the lowest crossover in a window, so that lines lie within 1 % of where they are wanted.
 const PERIODS: f64 = 120.0;
 /// Share by which a figure of the page may differ.
@@ -289,15 +291,8 @@ enum By {
 /// What a file's page says, against the measurement. Gives the largest deviations: of the drawn response, of the
 /// margins, of the steps, of the observer; of an exported drive the margins' alone.
 fn compared(name: &str, text: &str, body: &Body, by: By) -> [f64; 4] {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("machine.toml");
-    fs::write(&file, text).unwrap();
-    let page = folder.path().join("machine.html");
-    let run = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"))
-        .args(["driveline", "design", "--json", "--html"])
-        .args([&page, &file])
-        .output()
-        .unwrap();
+    let bench = Bench::with("machine.toml", text);
+    let run = bench.run(&["design", "machine.toml", "--json", "--html", "machine.html"]);
     let said: Value = serde_json::from_slice(&run.stdout).unwrap_or_else(|_| panic!("{name}: {run:?}"));
     let key = if let By::Exported(_, key) = by { key } else { "margins" };
     let (rate, margins, responses) = (said["rate_hz"].as_f64().unwrap(), &said["speed_loop"][key], &said["responses"]);
@@ -376,7 +371,7 @@ fn compared(name: &str, text: &str, body: &Body, by: By) -> [f64; 4] {
     let [steps, observer] = [stepped(responses, body, rate, limit, &drive), observed(responses, rate, &places, &drive)];
     println!("{name}: steps off by {:.2} % of their largest, observer by {:.2} %", 100.0 * steps, 100.0 * observer);
     // the page has the figures of the JSON
-    let html = fs::read_to_string(page).unwrap();
+    let html = bench.read("machine.html");
     let shown = driveline_report::format::significant(margins["phase"].as_f64().unwrap().to_degrees());
     assert!(html.contains(&format!(">{shown}<")), "{name}: no {shown} on the page");
     [response, worst, steps, observer]

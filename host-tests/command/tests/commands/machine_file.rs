@@ -9,6 +9,8 @@ use driveline::machine::{Length, Mass};
 use driveline_firmware::scenes::hoist::Hoist;
 use proptest::prelude::*;
 
+use super::bench::Bench;
+
 const HOIST: &str = include_str!("../../machines/hoist.toml");
 
 fn hoist_with(from: &str, to: &str) -> Result<MachineFile, Diagnostic> {
@@ -245,18 +247,13 @@ fn what_is_no_toml_is_told_with_its_place() {
 
 #[test]
 fn files_that_are_none_are_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let refuse = |name: &str, bytes: &[u8]| {
-        let path = folder.path().join(name);
-        std::fs::write(&path, bytes).unwrap();
-        read(&path).unwrap_err()
-    };
+    let refuse = |name: &str, bytes: &[u8]| read(&Bench::with(name, bytes).path(name)).unwrap_err();
     let binary = refuse("binary.toml", b"name = 1\n\xff\xfe\0garbage");
     assert_eq!((binary.line, binary.column), (2, 1));
     assert_eq!(binary.found, "the byte 0xff, which is not UTF-8");
     assert_eq!(refuse("huge.toml", &vec![b'#'; 2 << 20]).found, "more than 1 MiB");
     assert_eq!(refuse("empty.toml", b"").found, "an empty file");
-    assert!(read(folder.path()).unwrap_err().found.starts_with("no readable file ("));
+    assert!(read(Path::new(env!("CARGO_TARGET_TMPDIR"))).unwrap_err().found.starts_with("no readable file ("));
     assert!(read(Path::new("nowhere/no.toml")).unwrap_err().found.starts_with("no readable file ("));
 }
 

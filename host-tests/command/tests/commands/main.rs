@@ -2,6 +2,7 @@
 
 mod answers;
 mod balance;
+mod bench;
 mod cli_emit;
 mod composed;
 mod critical;

@@ -2,15 +2,14 @@
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
-use std::fs;
-use std::path::Path;
-use std::process::{Command, Output};
 
 use driveline::design::{Disturbance, Encoder, Rate};
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline_solver::noise::Noise;
 use driveline_solver::plant::{Chain, Shaft};
 use serde_json::Value;
+
+use super::bench::Bench;
 
 /// Motor and load (kg m2), shaft (N m/rad) and its damping (N m s/rad): 48 Hz, as in the README.
 const MACHINE: TwoMass = TwoMass::new(Inertia(0.35), Inertia(0.48), Stiffness(2.0e4), Damping(0.5));
@@ -85,7 +84,7 @@ fn record(rate: f64, jitter: f64, seed: u64) -> Record {
 }
 
 impl Record {
-    fn write(&self, path: &Path) {
+    fn text(&self) -> String {
         // as many rows as the longer of the two needs
         let mut text = String::from("time_s,torque_Nm,shaft_torque_Nm,load_speed_rad_s,load_torque_Nm,tooth_time_s\n");
         for at in 0..self.rows.len().max(self.teeth.len()) {
@@ -98,20 +97,17 @@ impl Record {
                 None => text.push('\n'),
             }
         }
-        fs::write(path, text).unwrap();
+        text
     }
 }
 
-fn replay(folder: &Path, arguments: &[&str]) -> Output {
-    let command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-    { command }.arg("replay").args(arguments).args(["--machine", "roll.toml"]).current_dir(folder).output().unwrap()
+/// By the teeth or the angle of a recording beside the machine.
+fn json(bench: &Bench, arguments: &[&str]) -> Value {
+    let replay = ["replay", "log.csv", "--machine", "roll.toml", "--held", "--csv", "table.csv"];
+    bench.json(&[&replay[..], arguments].concat())
 }
 
-fn json(folder: &Path, arguments: &[&str]) -> Value {
-    let output = replay(folder, &[arguments, &["--held", "--csv", "table.csv", "--json"]].concat());
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).unwrap()
-}
+const TEETH: [&str; 2] = ["--teeth", "60-2"];
 
 /// A good wheel's teeth are out of place by up to 0.03 degrees, half a hundredth of a pitch; further out, the shaft
 /// torque is worse than predicted: the wheel smooths away some of the swing, which no design knows.
@@ -122,8 +118,7 @@ fn json(folder: &Path, arguments: &[&str]) -> Value {
 /// 0.76, with four times 0.74.
 #[test]
 fn an_observer_by_a_wheel_is_as_good_as_its_design_says() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("roll.toml"), machine()).unwrap();
+    let bench = Bench::with("roll.toml", machine());
     let mut ratios = Vec::new();
     for (rate, jitter, seed) in [(4000.0, 0.0, 1), (4000.0, 0.005, 2), (1000.0, 0.005, 3), (10_000.0, 0.005, 4)] {
         let mut record = record(rate, jitter, seed);
@@ -132,12 +127,12 @@ fn an_observer_by_a_wheel_is_as_good_as_its_design_says() {
             let middle = record.teeth.len() / 2;
             record.teeth.drain(middle..middle + 30);
         }
-        record.write(&folder.path().join("log.csv"));
-        let found = json(folder.path(), &["log.csv", "--teeth", "60-2"]);
+        bench.write("log.csv", record.text());
+        let found = json(&bench, &TEETH);
         let deviation = found["wheel"]["tick_deviation"].as_f64().unwrap();
         let encoder = Encoder::counts(u32::MAX).jitter(deviation, 1.0);
         let predicted = MACHINE.try_observer(Rate::every(1.0 / rate), encoder, DISTURBANCE).unwrap().standard_deviation;
-        let table = fs::read_to_string(folder.path().join("table.csv")).unwrap();
+        let table = bench.read("table.csv");
         let estimates: Vec<Vec<f64>> =
             table.lines().skip(1).map(|line| line.split(',').map(|number| number.parse().unwrap()).collect()).collect();
         let settled = found["settling"].as_u64().unwrap() as usize;
@@ -169,17 +164,16 @@ fn an_observer_by_a_wheel_is_as_good_as_its_design_says() {
 /// A recording that begins at 100 rad/s, without slip: the first two angles tell the speed.
 #[test]
 fn a_machine_that_turns_already_raises_no_flag() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("roll.toml"), machine()).unwrap();
+    let bench = Bench::with("roll.toml", machine());
     let place = |tooth: u32| f64::from(60 * (tooth / 58) + tooth % 58);
     let rows: String =
         (0..1000).map(|at| format!("{:.4},0,{:.9}\n", f64::from(at) * 1e-3, TAU / 6000.0 * place(at))).collect();
-    fs::write(folder.path().join("log.csv"), format!("time_s,torque_Nm,tooth_time_s\n{rows}")).unwrap();
-    let found = json(folder.path(), &["log.csv", "--teeth", "60-2"]);
+    bench.write("log.csv", format!("time_s,torque_Nm,tooth_time_s\n{rows}"));
+    let found = json(&bench, &TEETH);
     let known = found["wheel"]["ticks_with_angle"].as_u64().unwrap() as usize;
     // two turns of 63 ms to find the place
     assert!(known > 1000 - 2 * 63 - 20, "{known}");
-    let table = fs::read_to_string(folder.path().join("table.csv")).unwrap();
+    let table = bench.read("table.csv");
     let headings: Vec<&str> = table.lines().next().unwrap().split(',').collect();
     for number in ["f32", "fixed"] {
         let column = |name: &str| headings.iter().position(|heading| *heading == format!("{number}_{name}")).unwrap();
@@ -196,8 +190,7 @@ fn a_machine_that_turns_already_raises_no_flag() {
 /// What accelerates the motor is its torque less that of the shaft: the same error as against the shaft torque itself.
 #[test]
 fn a_measured_acceleration_tells_the_error_of_the_shaft_torque() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("roll.toml"), machine()).unwrap();
+    let bench = Bench::with("roll.toml", machine());
     let record = record(10_000.0, 0.0, 1);
     let mut errors = Vec::new();
     for (heading, at) in [("shaft_torque_Nm", 2), ("acceleration [rad/s2]", 5)] {
@@ -205,8 +198,8 @@ fn a_measured_acceleration_tells_the_error_of_the_shaft_torque() {
         for row in &record.rows {
             writeln!(text, "{:.6},{:.6},{:.9},{:.9}", row[0], row[1], row[6], row[at]).unwrap();
         }
-        fs::write(folder.path().join("log.csv"), text).unwrap();
-        errors.push(json(folder.path(), &["log.csv"])["numbers"][0]["shaft_torque_error"].as_f64().unwrap());
+        bench.write("log.csv", text);
+        errors.push(json(&bench, &[])["numbers"][0]["shaft_torque_error"].as_f64().unwrap());
     }
     println!("{errors:?}");
     // the torque in the balance is half a tick's change off, the noise of the torque not in it at all
@@ -216,8 +209,7 @@ fn a_measured_acceleration_tells_the_error_of_the_shaft_torque() {
 /// The level of the pickup in the rows of the ticks gives the same angle, to half a tick.
 #[test]
 fn a_level_beside_the_torque_is_a_wheel_as_well() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("roll.toml"), machine()).unwrap();
+    let bench = Bench::with("roll.toml", machine());
     let record = record(10_000.0, 0.0, 1);
     let mut text = String::from("time_s,torque_Nm,load_speed_rad_s,crank\n");
     let mut next = record.teeth.iter().peekable();
@@ -229,31 +221,28 @@ fn a_level_beside_the_torque_is_a_wheel_as_well() {
         // a tooth is as wide as the motor turns in 0.4 ms, 0.4 of a pitch at 100 rad/s
         writeln!(text, "{:.6},{:.6},{:.9},{}", row[0], row[1], row[3], u8::from(row[0] - last < 4e-4)).unwrap();
     }
-    fs::write(folder.path().join("log.csv"), text).unwrap();
-    let found = json(folder.path(), &["log.csv", "--teeth", "60-2"]);
+    bench.write("log.csv", text);
+    let found = json(&bench, &TEETH);
     // at 100 rad/s two turns to find the place are 0.13 s, at the start of the ramp 0.5 s
     assert!(found["wheel"]["ticks_with_angle"].as_u64().unwrap() > 52_000, "{}", found["wheel"]);
     // a tick is 0.01 rad, even within it: rms 0.0029; the errors of the prediction are those of two edges and more
     let deviation = found["wheel"]["deviation"].as_f64().unwrap();
     assert!(deviation > 0.001 && deviation < 0.01, "{}", found["wheel"]);
-    let text = String::from_utf8(replay(folder.path(), &["log.csv", "--teeth", "60-2", "--html", "page.html"]).stdout)
-        .unwrap();
+    let replay = ["replay", "log.csv", "--machine", "roll.toml", "--teeth", "60-2", "--html", "page.html"];
+    let text = bench.said(&replay);
     assert!(text.contains("wheel: an angle in"), "{text}");
-    assert!(fs::read_to_string(folder.path().join("page.html")).unwrap().contains("ticks with an angle"));
+    assert!(bench.read("page.html").contains("ticks with an angle"));
 }
 
 #[test]
 fn a_recording_without_the_wheels_edges_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("roll.toml"), machine()).unwrap();
+    let bench = Bench::with("roll.toml", machine());
     let rows = |headings: &str, row: &dyn Fn(u32) -> String| {
         let rows: String = (0..200).map(|at| format!("{}\n", row(at))).collect();
-        fs::write(folder.path().join("log.csv"), format!("{headings}\n{rows}")).unwrap();
+        bench.write("log.csv", format!("{headings}\n{rows}"));
     };
     let refused = |arguments: &[&str]| {
-        let output = replay(folder.path(), &[&["log.csv", "--teeth", "60-2"], arguments].concat());
-        assert_eq!(output.status.code(), Some(2));
-        String::from_utf8(output.stderr).unwrap()
+        bench.refused(&[&["replay", "log.csv", "--machine", "roll.toml"], &TEETH[..], arguments].concat())
     };
     rows("time_s,torque_Nm", &|at| format!("{at}e-3,0"));
     assert!(refused(&[]).contains("a column of the pickup's level"));

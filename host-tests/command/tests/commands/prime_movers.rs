@@ -1,8 +1,8 @@
 //! Prime movers in train files, run by `simulate`, each against its closed form.
 
-use std::process::Command;
-
 use cargo_driveline::machine_file::parse_train;
+
+use super::bench::answered;
 
 const MOVERS: &str = "name = \"movers\"\n\
     [[coordinate]]\nname = \"winch\"\ninertia = 8.0\n\
@@ -16,17 +16,11 @@ const MOVERS: &str = "name = \"movers\"\n\
 
 #[test]
 fn prime_movers_run_up_as_their_closed_forms() {
-    let folder = tempfile::tempdir().unwrap();
     let time = 2.5_f64;
     for (burns, [a, b, c]) in
         [("spark", [1.0, 1.0, 1.0]), ("indirect injection", [0.6, 1.4, 1.0]), ("direct injection", [0.87, 1.13, 1.0])]
     {
-        let file = folder.path().join("movers.toml");
-        std::fs::write(&file, MOVERS.replace("TYPE", burns)).unwrap();
-        let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-        let output = command.args(["simulate", "--json"]).arg(&file).current_dir(folder.path()).output().unwrap();
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let found = answered("simulate", &MOVERS.replace("TYPE", burns));
         let last = |j: usize| found["coordinates"][j]["last"].as_f64().unwrap();
         // c^2/(R J) of the shunt motor; (R + c w)^3 = R^3 + 3 c^2 U^2 t/J of the series motor
         let shunt = 440.0 / 2.8 * -(-2.8 * 2.8 / (2.0 * 8.0) * time).exp_m1();
@@ -78,14 +72,8 @@ fn a_series_motor_that_starts_at_its_pole_or_below_is_refused_where_it_acts() {
 /// The torque of the first instant halves within 1e-18 s, a tiny part of a step; the motion is smooth all the same.
 #[test]
 fn a_series_motor_almost_without_resistance_runs_up_as_its_closed_form() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("movers.toml");
     let text = MOVERS.replace("TYPE", "spark").replace("resistance = 1.2", "resistance = 1e-6");
-    std::fs::write(&file, text).unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-    let output = command.args(["simulate", "--json"]).arg(&file).current_dir(folder.path()).output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let found = answered("simulate", &text);
     let series = ((1e-6_f64.powi(3) + 3.0 * (0.02 * 600.0_f64).powi(2) * 2.5 / 40.0).cbrt() - 1e-6) / 0.02;
     // 250 steps, and some hundred from the first instant to them, each rounded
     assert!((found["coordinates"][1]["last"].as_f64().unwrap() / series - 1.0).abs() < 1e-12, "{found}");

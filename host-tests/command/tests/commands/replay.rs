@@ -2,28 +2,26 @@
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
-use std::fs;
-use std::path::Path;
-use std::process::{Command, Output};
 
 use serde_json::Value;
 
-fn replay(folder: &Path, arguments: &[&str]) -> Output {
-    let command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-    { command }.arg("replay").args(arguments).current_dir(folder).output().unwrap()
+use super::bench::Bench;
+
+/// What is printed, and the exit code.
+fn replay(bench: &Bench, arguments: &[&str]) -> (String, Option<i32>) {
+    let output = bench.run(&[&["replay"], arguments].concat());
+    (String::from_utf8(output.stdout).unwrap(), output.status.code())
 }
 
-fn json(folder: &Path, arguments: &[&str]) -> Value {
-    let output = replay(folder, &[arguments, &["--json"]].concat());
+fn json(bench: &Bench, arguments: &[&str]) -> Value {
+    let (printed, code) = replay(bench, &[arguments, &["--json"]].concat());
     // 1 where the record tells nothing
-    assert!(matches!(output.status.code(), Some(0 | 1)), "{}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).unwrap()
+    assert!(matches!(code, Some(0 | 1)), "{arguments:?}");
+    serde_json::from_str(&printed).unwrap()
 }
 
-fn refused(folder: &Path, arguments: &[&str]) -> String {
-    let output = replay(folder, arguments);
-    assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-    String::from_utf8(output.stderr).unwrap()
+fn refused(bench: &Bench, arguments: &[&str]) -> String {
+    bench.refused(&[&["replay"], arguments].concat())
 }
 
 /// Speed of the wheels (rad/s).
@@ -57,16 +55,16 @@ fn levels(places: u32, has_tooth: impl Fn(u32) -> bool, turns: u32, order: f64) 
 /// Speed 80 rad/s, extremes w/(1 - h) and w/(1 + h): delta is 2 h/(1 - h2), and the order of the speed h to h2.
 #[test]
 fn a_wheels_edges_give_its_speed_and_ripple() {
-    let folder = tempfile::tempdir().unwrap();
+    let bench = Bench::new();
     let delta = 2.0 * RIPPLE / (1.0 - RIPPLE * RIPPLE);
     let three_gaps = [10, 11, 22, 23, 34, 35];
     let wheels: [(&str, u32, &[u32]); 3] =
         [("60-2", 60, &[58, 59]), ("36:10,11,22,23,34,35", 36, &three_gaps), ("36:17,34,35", 36, &[17, 34, 35])];
     for (wheel, places, missing) in wheels {
         // rising edges, then falling ones, which come half a place later
-        fs::write(folder.path().join("log.csv"), levels(places, |place| !missing.contains(&place), 60, 2.0)).unwrap();
+        bench.write("log.csv", levels(places, |place| !missing.contains(&place), 60, 2.0));
         for edge in [&[][..], &["--falling"]] {
-            let found = json(folder.path(), &[&["log.csv", "--teeth", wheel, "--cycles", "4"], edge].concat());
+            let found = json(&bench, &[&["log.csv", "--teeth", wheel, "--cycles", "4"], edge].concat());
             let windows = found["windows"].as_array().unwrap();
             assert!(windows.len() > 10, "{wheel}: {} windows", windows.len());
             for window in windows {
@@ -87,24 +85,22 @@ fn a_wheels_edges_give_its_speed_and_ripple() {
         .filter(|line| line.ends_with(",1"))
         .map(|line| format!("{}\n", line.trim_end_matches(",1")))
         .collect();
-    fs::write(folder.path().join("edges.csv"), format!("time_s\n{rows}")).unwrap();
-    let found = json(folder.path(), &["edges.csv", "--teeth", "60-2", "--cycle", "2"]);
+    bench.write("edges.csv", format!("time_s\n{rows}"));
+    let found = json(&bench, &["edges.csv", "--teeth", "60-2", "--cycle", "2"]);
     let fourth = found["windows"][1]["orders"][3]["amplitude"].as_f64().unwrap();
     assert!((fourth - RIPPLE).abs() < 1e-4, "{fourth}");
     // the table has a line for each window, the page its plots
-    let output = replay(folder.path(), &["edges.csv", "--teeth", "60-2", "--csv", "table.csv", "--html", "page.html"]);
-    assert!(output.status.success());
-    let text = String::from_utf8(output.stdout).unwrap();
+    let text = bench.said(&["replay", "edges.csv", "--teeth", "60-2", "--csv", "table.csv", "--html", "page.html"]);
     assert!(text.contains("764") && text.contains("2: 1.00 %"), "{text}");
-    let table = fs::read_to_string(folder.path().join("table.csv")).unwrap();
+    let table = bench.read("table.csv");
     assert!(table.starts_with("until_s,") && table.lines().count() > 5, "{table}");
-    assert!(fs::read_to_string(folder.path().join("page.html")).unwrap().contains("Fluctuation"));
+    assert!(bench.read("page.html").contains("Fluctuation"));
 }
 
 /// After a stop the phase of a cycle of two turns is another, and so may be the speed: no window has cycles of both.
 #[test]
 fn a_window_ends_where_the_wheel_stops() {
-    let folder = tempfile::tempdir().unwrap();
+    let bench = Bench::new();
     let (mut text, mut begin) = (String::from("time_s\n"), 0.0);
     // half orders of the turn, begun a turn later after each stop of four seconds, and half the speed at the end
     for (run, slower) in [1.0, 1.0, 1.0, 2.0].into_iter().enumerate() {
@@ -116,8 +112,8 @@ fn a_window_ends_where_the_wheel_stops() {
         }
         begin += slower * 13.0 * TAU / SPEED + 4.0;
     }
-    fs::write(folder.path().join("log.csv"), text).unwrap();
-    let found = json(folder.path(), &["log.csv", "--teeth", "60-2", "--cycle", "2", "--cycles", "100"]);
+    bench.write("log.csv", text);
+    let found = json(&bench, &["log.csv", "--teeth", "60-2", "--cycle", "2", "--cycles", "100"]);
     let windows = found["windows"].as_array().unwrap();
     assert_eq!(windows.len(), 4, "{found}");
     for (window, speed) in windows.iter().zip([SPEED, SPEED, SPEED, 0.5 * SPEED]) {
@@ -132,7 +128,7 @@ fn a_window_ends_where_the_wheel_stops() {
 /// A trapezium sampled at 10 kHz with noise: the crossing is interpolated, and noise about the middle is no edge.
 #[test]
 fn an_analog_level_gives_the_same() {
-    let folder = tempfile::tempdir().unwrap();
+    let bench = Bench::new();
     let (mut text, mut noise) = (String::from("crank_V\n"), 1_u32);
     for sample in 0..20_000 {
         // by theta = w t - h/2 sin 2 theta, to a place in 1e-12 after eight rounds
@@ -145,9 +141,9 @@ fn an_analog_level_gives_the_same() {
         let jitter = 0.02 * (f64::from(noise >> 8) / 8_388_608.0 - 1.0);
         writeln!(text, "{:.6}", if has_tooth { height } else { -0.5 } + jitter).unwrap();
     }
-    fs::write(folder.path().join("log.csv"), text).unwrap();
+    bench.write("log.csv", text);
     let arguments = ["log.csv", "--teeth", "60-2", "--orders", "4", "--rate", "10000", "--cycles", "4"];
-    let found = json(folder.path(), &arguments);
+    let found = json(&bench, &arguments);
     let windows = found["windows"].as_array().unwrap();
     assert!(windows.len() >= 4, "{found}");
     for window in windows {
@@ -157,38 +153,35 @@ fn an_analog_level_gives_the_same() {
         assert!((delta - 2.0 * RIPPLE).abs() < 1e-3, "{window}");
     }
     // a heading that says nothing is not passed over
-    fs::write(folder.path().join("ckp.csv"), "time_s,CKP\n1,0\n2,1\n3,0\n").unwrap();
-    assert!(refused(folder.path(), &["ckp.csv", "--teeth", "12-1"]).contains("--column teeth=HEADING"));
+    bench.write("ckp.csv", "time_s,CKP\n1,0\n2,1\n3,0\n");
+    assert!(refused(&bench, &["ckp.csv", "--teeth", "12-1"]).contains("--column teeth=HEADING"));
 }
 
 #[test]
 fn another_wheel_gives_nothing_and_is_said_to() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("log.csv"), levels(60, |place| place < 58, 30, 2.0)).unwrap();
+    let bench = Bench::new();
+    bench.write("log.csv", levels(60, |place| place < 58, 30, 2.0));
     for wheel in ["36-2", "60-1", "36:17,34,35", "12+1@340", "8-1"] {
-        let found = json(folder.path(), &["log.csv", "--teeth", wheel]);
+        let found = json(&bench, &["log.csv", "--teeth", wheel]);
         assert_eq!(found["edges_with_place"], 0, "{wheel}");
         assert_eq!(found["windows"].as_array().unwrap().len(), 0, "{wheel}");
-        let output = replay(folder.path(), &["log.csv", "--teeth", wheel, "--html", "page.html"]);
-        assert!(String::from_utf8(output.stdout).unwrap().contains("is the wheel the one described"), "{wheel}");
-        assert_eq!(output.status.code(), Some(1), "{wheel}");
+        let (said, code) = replay(&bench, &["log.csv", "--teeth", wheel]);
+        assert!(code == Some(1) && said.contains("is the wheel the one described"), "{wheel}");
     }
     // the right wheel, but two turns of it; then a stop of two seconds after each turn
-    fs::write(folder.path().join("short.csv"), levels(60, |place| place < 58, 2, 2.0)).unwrap();
+    bench.write("short.csv", levels(60, |place| place < 58, 2, 2.0));
     let stops = (0..5).flat_map(|turn| (0..58).map(move |at| f64::from(turn) * 3.0 + f64::from(at) / 60.0));
     let stops: String = stops.map(|time| format!("{time:.6}\n")).collect();
-    fs::write(folder.path().join("stops.csv"), format!("time_s\n{stops}")).unwrap();
+    bench.write("stops.csv", format!("time_s\n{stops}"));
     // a clock of one step
-    fs::write(folder.path().join("at-once.csv"), format!("time_s\n{}", "1.5\n".repeat(290))).unwrap();
+    bench.write("at-once.csv", format!("time_s\n{}", "1.5\n".repeat(290)));
     for (file, word) in [
         ("short.csv", "too short, 116 edges"),
         ("stops.csv", "the edges stay away for"),
         ("at-once.csv", "289 of 290 edges are at the time of the one before"),
     ] {
-        let output = replay(folder.path(), &[file, "--teeth", "60-2", "--html", "page.html"]);
-        let said = String::from_utf8(output.stdout).unwrap();
-        assert!(said.contains(word) && !said.contains("described"), "{file}: {said}");
-        assert_eq!(output.status.code(), Some(1), "{file}: {said}");
+        let (said, code) = replay(&bench, &[file, "--teeth", "60-2"]);
+        assert!(code == Some(1) && said.contains(word) && !said.contains("described"), "{file}: {said}");
     }
     for (wheel, word) in [
         ("60-2x", "expected a wheel such as"),
@@ -201,13 +194,13 @@ fn another_wheel_gives_nothing_and_is_said_to() {
         ("36-0", "among even teeth"),
         ("", "expected a wheel such as"),
     ] {
-        let said = refused(folder.path(), &["log.csv", "--teeth", wheel]);
+        let said = refused(&bench, &["log.csv", "--teeth", wheel]);
         assert!(said.contains(word), "{wheel}: {said}");
     }
-    fs::write(folder.path().join("back.csv"), "time_s\n1\n2\n1.5\n3\n").unwrap();
-    assert!(refused(folder.path(), &["back.csv", "--teeth", "8-1"]).contains("a time that falls, at line 4"));
-    fs::write(folder.path().join("flat.csv"), "time_s,crank\n1,0\n2,0\n3,0\n").unwrap();
-    assert!(refused(folder.path(), &["flat.csv", "--teeth", "8-1"]).contains("found 0 edges"));
+    bench.write("back.csv", "time_s\n1\n2\n1.5\n3\n");
+    assert!(refused(&bench, &["back.csv", "--teeth", "8-1"]).contains("a time that falls, at line 4"));
+    bench.write("flat.csv", "time_s,crank\n1,0\n2,0\n3,0\n");
+    assert!(refused(&bench, &["flat.csv", "--teeth", "8-1"]).contains("found 0 edges"));
     for arguments in [
         &["log.csv", "--teeth", "60-2", "--turns", "3"][..],
         &["log.csv", "--phasors", "--cycles", "3"],
@@ -216,26 +209,24 @@ fn another_wheel_gives_nothing_and_is_said_to() {
         &["log.csv", "--teeth", "60-2", "--machine", "m.toml", "--cycle", "2"],
         &["log.csv", "--fluctuation", "--falling"],
     ] {
-        assert!(refused(folder.path(), arguments).contains("cannot be used with"), "{arguments:?}");
+        assert!(refused(&bench, arguments).contains("cannot be used with"), "{arguments:?}");
     }
     for options in [&["--held"][..], &["--delay", "1e-4"], &["--torque-constant", "0.5"]] {
         for part in [&["--teeth", "60-2"][..], &["--fluctuation"], &["--phasors"]] {
-            let said = refused(folder.path(), &[&["log.csv"], part, options].concat());
+            let said = refused(&bench, &[&["log.csv"], part, options].concat());
             assert!(said.contains("--machine <FILE>") || said.contains("cannot be used with"), "{options:?}: {said}");
         }
     }
-    assert!(refused(folder.path(), &["log.csv", "--machine", "m.toml", "--falling"]).contains("--teeth <WHEEL>"));
-    assert!(
-        refused(folder.path(), &["stops.csv", "--teeth", "60-2", "--falling"]).contains("without a pickup's level")
-    );
-    assert!(refused(folder.path(), &["log.csv", "--teeth", "60-2", "--csv", "log.csv"]).contains("its own input"));
+    assert!(refused(&bench, &["log.csv", "--machine", "m.toml", "--falling"]).contains("--teeth <WHEEL>"));
+    assert!(refused(&bench, &["stops.csv", "--teeth", "60-2", "--falling"]).contains("without a pickup's level"));
+    assert!(refused(&bench, &["log.csv", "--teeth", "60-2", "--csv", "log.csv"]).contains("its own input"));
 }
 
 /// A magnetic pickup: its level swings with the speed and rests at the middle over the gap, so that only the steep edge
 /// of a tooth is one. An even speed, first at a tenth; noise of a fiftieth of the largest swing.
 #[test]
 fn a_magnetic_pickups_steep_edge_is_found_at_every_speed() {
-    let folder = tempfile::tempdir().unwrap();
+    let bench = Bench::new();
     let mut seed = 1_u32;
     let mut text = String::from("crank\n");
     let (mut turn, mut time) = (0.0_f64, 0.0_f64);
@@ -251,9 +242,9 @@ fn a_magnetic_pickups_steep_edge_is_found_at_every_speed() {
         let noise = f64::from(seed >> 16) / 65_536.0 - 0.5;
         writeln!(text, "{:.5}", speed * pulse + 0.02 * 40.0 * 0.1 * noise).unwrap();
     }
-    fs::write(folder.path().join("log.csv"), text).unwrap();
+    bench.write("log.csv", text);
     let arguments = ["log.csv", "--teeth", "60-2", "--rate", "20000", "--cycles", "4", "--orders", "4"];
-    let found = json(folder.path(), &[&arguments[..], &["--falling"]].concat());
+    let found = json(&bench, &[&arguments[..], &["--falling"]].concat());
     let windows = found["windows"].as_array().unwrap();
     // 8 turns at the low speed, 12 on the way up, 60 at the high one: one turn is spent on finding the place
     assert!(windows.len() >= 17, "{}", windows.len());
@@ -271,32 +262,29 @@ fn a_magnetic_pickups_steep_edge_is_found_at_every_speed() {
         Ok(level) if row > 60_000 => format!("{:.5}\n", 1e-3 * level),
         _ => format!("{line}\n"),
     };
-    let faded: String =
-        fs::read_to_string(folder.path().join("log.csv")).unwrap().lines().enumerate().map(weak).collect();
-    fs::write(folder.path().join("faded.csv"), faded).unwrap();
-    let gone = json(folder.path(), &[&["faded.csv"], &arguments[1..], &["--falling"]].concat());
+    let faded: String = bench.read("log.csv").lines().enumerate().map(weak).collect();
+    bench.write("faded.csv", faded);
+    let gone = json(&bench, &[&["faded.csv"], &arguments[1..], &["--falling"]].concat());
     // the last edge before, up to a gap of 1.3 ms
     let lost = gone["lost_after"].as_f64().unwrap();
     assert!((2.998..=3.0).contains(&lost), "{lost}");
-    let command = [&["faded.csv"], &arguments[1..], &["--falling", "--html", "page.html"]].concat();
-    let said = String::from_utf8(replay(folder.path(), &command).stdout).unwrap();
+    let (said, _) = replay(&bench, &[&["faded.csv"], &arguments[1..], &["--falling"]].concat());
     assert!(said.contains(&format!("; lost first after {lost:.3} s")), "{said}");
     // a spike is no level
-    let text = fs::read_to_string(folder.path().join("log.csv")).unwrap().replacen("\n0.0", "\n200.0", 1);
-    fs::write(folder.path().join("spike.csv"), text).unwrap();
-    let found = json(folder.path(), &[&["spike.csv"], &arguments[1..], &["--falling"]].concat());
+    let text = bench.read("log.csv").replacen("\n0.0", "\n200.0", 1);
+    bench.write("spike.csv", text);
+    let found = json(&bench, &[&["spike.csv"], &arguments[1..], &["--falling"]].concat());
     assert!(found["windows"].as_array().unwrap().len() >= 17, "{found}");
     // the other edge of a tooth is spread over the gap, which the command sees
-    let output = replay(folder.path(), &[&arguments[..], &["--html", "page.html"]].concat());
-    let said = String::from_utf8(output.stdout).unwrap();
+    let (said, _) = replay(&bench, &arguments);
     assert!(said.contains("with --falling the other edges leave"), "{said}");
-    assert_eq!(json(folder.path(), &arguments)["better_edges"]["falling"], true);
+    assert_eq!(json(&bench, &arguments)["better_edges"]["falling"], true);
 }
 
 /// A short stop between two turns of a machine without any ripple: the window that has it is doubted.
 #[test]
 fn a_stop_within_a_window_is_doubted() {
-    let folder = tempfile::tempdir().unwrap();
+    let bench = Bench::new();
     let mut text = String::from("time_s\n");
     for turn in 0..24 {
         for place in 0..58 {
@@ -304,11 +292,11 @@ fn a_stop_within_a_window_is_doubted() {
             writeln!(text, "{:.9}", late + TAU / SPEED * (f64::from(turn) + f64::from(place) / 60.0)).unwrap();
         }
     }
-    fs::write(folder.path().join("log.csv"), text).unwrap();
-    let found = json(folder.path(), &["log.csv", "--teeth", "60-2", "--cycles", "20"]);
+    bench.write("log.csv", text);
+    let found = json(&bench, &["log.csv", "--teeth", "60-2", "--cycles", "20"]);
     let window = &found["windows"][0];
     assert!(window["doubtful"] == true || window["unusable"].is_string(), "{window}");
-    let found = json(folder.path(), &["log.csv", "--teeth", "60-2", "--cycles", "8"]);
+    let found = json(&bench, &["log.csv", "--teeth", "60-2", "--cycles", "8"]);
     // turns 1 to 8 know nothing of it, and are as even as the clock
     let window = &found["windows"][0];
     assert!(window["doubtful"] == false && window["delta"].as_f64().unwrap() < 1e-4, "{window}");
@@ -318,7 +306,7 @@ fn a_stop_within_a_window_is_doubted() {
 /// forwards and backwards, at one turn and two to the cycle.
 #[test]
 fn an_angles_fluctuation_is_that_of_its_motion() {
-    let folder = tempfile::tempdir().unwrap();
+    let bench = Bench::new();
     for (rate, counts, sign) in [(10_000.0, 16_384.0, 1.0), (10_000.0, 16_384.0, -1.0), (2_000.0, 1e9, 1.0)] {
         let mut text = String::from("time_s,angle_rad\n");
         let mut theta = 0.0;
@@ -331,9 +319,9 @@ fn an_angles_fluctuation_is_that_of_its_motion() {
             let shown = sign * (theta / TAU * counts).floor() / counts * TAU;
             writeln!(text, "{time:.9},{shown:.9}").unwrap();
         }
-        fs::write(folder.path().join("log.csv"), text).unwrap();
+        bench.write("log.csv", text);
         for (turns, order) in [("1", 2), ("2", 4)] {
-            let found = json(folder.path(), &["log.csv", "--fluctuation", "--cycle", turns, "--cycles", "4"]);
+            let found = json(&bench, &["log.csv", "--fluctuation", "--cycle", turns, "--cycles", "4"]);
             let windows = found["windows"].as_array().unwrap();
             assert!(windows.len() >= 6, "{rate}: {} windows", windows.len());
             for window in windows {
@@ -351,8 +339,8 @@ fn an_angles_fluctuation_is_that_of_its_motion() {
     for stop in [0.05, 2.0] {
         let angle = |time: f64| 100.0 * if time < 1.0 { time } else { (time - stop).max(1.0) };
         let rows: String = (0..12_000).map(|at| format!("{:.9}\n", angle(f64::from(at) / 2000.0))).collect();
-        fs::write(folder.path().join("stop.csv"), format!("angle_rad\n{rows}")).unwrap();
-        let found = json(folder.path(), &["stop.csv", "--fluctuation", "--rate", "2000", "--cycles", "8"]);
+        bench.write("stop.csv", format!("angle_rad\n{rows}"));
+        let found = json(&bench, &["stop.csv", "--fluctuation", "--rate", "2000", "--cycles", "8"]);
         let windows = found["windows"].as_array().unwrap();
         let at_it = |window: &&Value| (1.0..1.0 + stop + 0.6).contains(&window["until"].as_f64().unwrap());
         let good = |window: &Value| window["doubtful"] == false && window["delta"].as_f64().unwrap() < 2e-3;
@@ -361,23 +349,19 @@ fn an_angles_fluctuation_is_that_of_its_motion() {
         assert!(apart.clone().count() >= 3 && apart.clone().all(good), "{stop}: {found}");
     }
     // fewer orders; then a motion forwards and backwards, one too fast for its samples, no angle at all
-    let found = json(folder.path(), &["log.csv", "--fluctuation", "--cycles", "1", "--from", "4", "--orders", "3"]);
+    let found = json(&bench, &["log.csv", "--fluctuation", "--cycles", "1", "--from", "4", "--orders", "3"]);
     assert!(found["windows"][0]["orders"].as_array().unwrap().len() <= 3, "{found}");
     let samples = |angle: fn(f64) -> f64| -> String { (0..2000).map(|at| format!("{}\n", angle(at.into()))).collect() };
-    fs::write(folder.path().join("swing.csv"), format!("angle_rad\n{}", samples(|at| 9.0 * (0.01 * at).sin())))
-        .unwrap();
-    fs::write(folder.path().join("fast.csv"), format!("angle_rad\n{}", samples(|at| 0.4 * at))).unwrap();
+    bench.write("swing.csv", format!("angle_rad\n{}", samples(|at| 9.0 * (0.01 * at).sin())));
+    bench.write("fast.csv", format!("angle_rad\n{}", samples(|at| 0.4 * at)));
     for file in ["swing.csv", "fast.csv"] {
-        let output = replay(folder.path(), &[file, "--fluctuation", "--rate", "1000", "--html", "page.html"]);
-        let said = String::from_utf8(output.stdout).unwrap();
-        assert!(output.status.code() == Some(1) && said.contains("no window of 8 cycles of 1 turn"), "{file}: {said}");
+        let (said, code) = replay(&bench, &[file, "--fluctuation", "--rate", "1000"]);
+        assert!(code == Some(1) && said.contains("no window of 8 cycles of 1 turn"), "{file}: {said}");
     }
-    fs::write(folder.path().join("speed.csv"), "speed_rad_per_s\n1\n2\n").unwrap();
-    assert!(
-        refused(folder.path(), &["speed.csv", "--fluctuation", "--rate", "1000"]).contains("--column angle=HEADING")
-    );
+    bench.write("speed.csv", "speed_rad_per_s\n1\n2\n");
+    assert!(refused(&bench, &["speed.csv", "--fluctuation", "--rate", "1000"]).contains("--column angle=HEADING"));
     for other in ["--machine", "--teeth"] {
-        let said = refused(folder.path(), &["log.csv", "--fluctuation", other, "60-2"]);
+        let said = refused(&bench, &["log.csv", "--fluctuation", other, "60-2"]);
         assert!(said.contains("cannot be used with"), "{said}");
     }
 }
@@ -386,7 +370,7 @@ fn an_angles_fluctuation_is_that_of_its_motion() {
 /// few ticks says so.
 #[test]
 fn delta_by_ticks_is_right_or_refused_at_any_speed() {
-    let folder = tempfile::tempdir().unwrap();
+    let bench = Bench::new();
     let delta = 2.0 * RIPPLE / (1.0 - RIPPLE * RIPPLE);
     for rate in [10_000.0, 2_000.0] {
         for speed in [60.0, 110.0, 130.0, 157.0, 170.0, 200.0, 220.0, 250.0] {
@@ -399,9 +383,9 @@ fn delta_by_ticks_is_right_or_refused_at_any_speed() {
                     }
                     writeln!(text, "{theta:.9}").unwrap();
                 }
-                fs::write(folder.path().join("log.csv"), text).unwrap();
+                bench.write("log.csv", text);
                 let arguments = ["log.csv", "--fluctuation", "--cycle", turns, "--rate", &rate.to_string()];
-                let found = json(folder.path(), &arguments);
+                let found = json(&bench, &arguments);
                 let a_turn = rate * TAU / speed;
                 let windows = found["windows"].as_array().unwrap();
                 assert!(!windows.is_empty(), "{rate} Hz, {speed} rad/s, {turns} turns");
@@ -420,7 +404,7 @@ fn delta_by_ticks_is_right_or_refused_at_any_speed() {
 /// The same promise where a turn has a whole number of samples, or nearly so: even motion, and one order.
 #[test]
 fn delta_by_ticks_is_right_with_a_whole_number_of_samples_to_the_turn() {
-    let folder = tempfile::tempdir().unwrap();
+    let bench = Bench::new();
     for (order, size) in [(1.0, 0.0), (1.0, 0.0025), (5.0, 0.01), (8.0, 0.01)] {
         // of a mean speed of 1 the speed is 1 + a cos(n phi)
         let delta = 2.0 * size;
@@ -430,8 +414,8 @@ fn delta_by_ticks_is_right_with_a_whole_number_of_samples_to_the_turn() {
                 let phi = TAU * f64::from(sample) / samples;
                 writeln!(text, "{:.9}", 0.123 + phi + size / order * (order * phi).sin()).unwrap();
             }
-            fs::write(folder.path().join("log.csv"), text).unwrap();
-            let found = json(folder.path(), &["log.csv", "--fluctuation", "--rate", "2000"]);
+            bench.write("log.csv", text);
+            let found = json(&bench, &["log.csv", "--fluctuation", "--rate", "2000"]);
             let windows = found["windows"].as_array().unwrap();
             assert!(windows.len() >= 2, "{samples}: {found}");
             for window in windows {
@@ -445,7 +429,7 @@ fn delta_by_ticks_is_right_with_a_whole_number_of_samples_to_the_turn() {
 /// `v = 3 cos(theta + 0.5)` beside an offset and the second order, at 20.3 turns a second and 1,000 samples a second.
 #[test]
 fn a_vibrations_phasor_is_read_by_the_angle_and_by_a_mark() {
-    let folder = tempfile::tempdir().unwrap();
+    let bench = Bench::new();
     let turns = |at: u32| 20.3e-3 * f64::from(at);
     let mut text = String::from("angle_turns,mark,vibration_mm_per_s\n");
     for at in 0..9_000 {
@@ -454,9 +438,9 @@ fn a_vibrations_phasor_is_read_by_the_angle_and_by_a_mark() {
         // the mark is a twentieth of a turn wide
         writeln!(text, "{:.9},{},{v:.9}", turns(at), u8::from(turns(at).fract() < 0.05)).unwrap();
     }
-    fs::write(folder.path().join("both.csv"), &text).unwrap();
+    bench.write("both.csv", &text);
     let without_angle: String = text.lines().map(|line| format!("{}\n", line.split_once(',').unwrap().1)).collect();
-    fs::write(folder.path().join("mark.csv"), without_angle).unwrap();
+    bench.write("mark.csv", without_angle);
     // an angle that comes round as the mark passes, and whose zero is a third of a turn behind the mark
     for (file, zero) in [("wrapped.csv", 0.0), ("third.csv", 1.0 / 3.0)] {
         let lines = text
@@ -465,7 +449,7 @@ fn a_vibrations_phasor_is_read_by_the_angle_and_by_a_mark() {
             .zip(0..)
             .map(|(line, at)| format!("{:.9},{}\n", (turns(at) + zero).fract(), line.split_once(',').unwrap().1));
         let wrapped = format!("angle_turns,mark,vibration_mm_per_s\n{}", lines.collect::<String>());
-        fs::write(folder.path().join(file), wrapped).unwrap();
+        bench.write(file, wrapped);
     }
     // by the angle: single precision, and the samples at a block's ends, of 49 on a turn and 400 on a block; by the
     // mark an error of the pulse of up to half a sample, 0.064 rad, of which the filter leaves a fifth
@@ -476,7 +460,7 @@ fn a_vibrations_phasor_is_read_by_the_angle_and_by_a_mark() {
         ("third.csv", "1", 3.0, 0.5, 5e-3),
         ("mark.csv", "1", 3.0, 0.5, 0.013),
     ] {
-        let found = json(folder.path(), &[file, "--phasors", "--rate", "1000", "--order", order]);
+        let found = json(&bench, &[file, "--phasors", "--rate", "1000", "--order", order]);
         let readings = found["readings"].as_array().unwrap();
         assert!(readings.len() >= 3, "{file}: {}", readings.len());
         assert!(readings.iter().all(|reading| reading["refused"].is_null()), "{file}: {readings:?}");
@@ -494,33 +478,31 @@ fn a_vibrations_phasor_is_read_by_the_angle_and_by_a_mark() {
             let mark = u8::from((12.0 * turns(at)).fract() < 0.6 && turns(at).fract() < 1.0 / 6.0);
             all + &format!("{:.9},{mark},{}\n", turns(at), line.rsplit_once(',').unwrap().1)
         });
-    fs::write(folder.path().join("twice.csv"), twice).unwrap();
-    let said = refused(folder.path(), &["twice.csv", "--phasors", "--rate", "1000"]);
+    bench.write("twice.csv", twice);
+    let said = refused(&bench, &["twice.csv", "--phasors", "--rate", "1000"]);
     assert!(said.contains("marks at different angles"), "{said}");
     // without a mark there is no edge to choose
     let alone: String = text
         .lines()
         .map(|line| format!("{},{}\n", line.split(',').next().unwrap(), line.rsplit(',').next().unwrap()))
         .collect();
-    fs::write(folder.path().join("alone.csv"), alone).unwrap();
-    let said = refused(folder.path(), &["alone.csv", "--phasors", "--rate", "1000", "--falling"]);
+    bench.write("alone.csv", alone);
+    let said = refused(&bench, &["alone.csv", "--phasors", "--rate", "1000", "--falling"]);
     assert!(said.contains("--falling without a column of a mark"), "{said}");
     // beyond the sensor's range no reading is to be used
-    let found = json(folder.path(), &["both.csv", "--phasors", "--rate", "1000", "--range", "2.0"]);
+    let found = json(&bench, &["both.csv", "--phasors", "--rate", "1000", "--range", "2.0"]);
     assert!(found["mean"].is_null() && found["readings"][0]["refused"].as_str().unwrap().contains("range"), "{found}");
     // too short for one
     let short: String = text.lines().take(300).map(|line| format!("{line}\n")).collect();
-    fs::write(folder.path().join("short.csv"), short).unwrap();
-    let output = replay(folder.path(), &["short.csv", "--phasors", "--rate", "1000", "--html", "page.html"]);
-    let said = String::from_utf8(output.stdout).unwrap();
-    assert!(said.contains("no reading is to be used") && said.contains("turns"), "{said}");
-    assert_eq!(output.status.code(), Some(1), "{said}");
-    let said = refused(folder.path(), &["both.csv", "--phasors", "--rate", "1000", "--counts", "360"]);
+    bench.write("short.csv", short);
+    let (said, code) = replay(&bench, &["short.csv", "--phasors", "--rate", "1000"]);
+    assert!(code == Some(1) && said.contains("no reading is to be used") && said.contains("turns"), "{said}");
+    let said = refused(&bench, &["both.csv", "--phasors", "--rate", "1000", "--counts", "360"]);
     assert!(said.contains("--counts without a column in counts"), "{said}");
-    fs::write(folder.path().join("none.csv"), "angle_rad,vibration_g\n").unwrap();
-    assert!(refused(folder.path(), &["none.csv", "--phasors", "--rate", "1000"]).contains("found 0 samples"));
-    assert!(refused(folder.path(), &["both.csv", "--phasors", "--rate", "1000", "--order", "0"]).contains("1..=15"));
+    bench.write("none.csv", "angle_rad,vibration_g\n");
+    assert!(refused(&bench, &["none.csv", "--phasors", "--rate", "1000"]).contains("found 0 samples"));
+    assert!(refused(&bench, &["both.csv", "--phasors", "--rate", "1000", "--order", "0"]).contains("1..=15"));
     let no_mark: String = text.lines().map(|line| format!("{}\n", line.rsplit_once(',').unwrap().1)).collect();
-    fs::write(folder.path().join("alone.csv"), no_mark).unwrap();
-    assert!(refused(folder.path(), &["alone.csv", "--phasors", "--rate", "1000"]).contains("a `mark` once a turn"));
+    bench.write("alone.csv", no_mark);
+    assert!(refused(&bench, &["alone.csv", "--phasors", "--rate", "1000"]).contains("a `mark` once a turn"));
 }

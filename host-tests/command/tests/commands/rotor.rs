@@ -1,9 +1,9 @@
 //! `cargo driveline rotor`: files with their faults placed, tables, JSON, the page.
 
-use std::process::{Command, Output};
-
 use cargo_driveline::machine_file::{parse_rotor, read_rotor};
 use serde_json::Value;
+
+use super::bench::{Bench, answered};
 
 const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/rotors/three_discs.toml");
 
@@ -12,16 +12,9 @@ fn file() -> Value {
     serde_json::from_str(include_str!("../../../../tests/data/flexible_rotor.json")).unwrap()
 }
 
-fn driveline(arguments: &[&str]) -> Output {
-    let folder = env!("CARGO_TARGET_TMPDIR");
-    Command::new(env!("CARGO_BIN_EXE_cargo-driveline")).args(arguments).current_dir(folder).output().unwrap()
-}
-
 #[test]
 fn json_holds_the_critical_speeds_of_the_file() {
-    let output = driveline(&["rotor", FILE, "--json"]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let found = Bench::new().json(&["rotor", FILE]);
     let criticals = found["critical_speeds"].as_array().unwrap();
     let forward: Vec<f64> =
         criticals.iter().filter(|c| c["sense"] == "forward").map(|c| c["speed"].as_f64().unwrap()).collect();
@@ -36,11 +29,10 @@ fn json_holds_the_critical_speeds_of_the_file() {
 
 #[test]
 fn the_page_has_its_plots() {
-    let page = format!("{}/three-discs.html", env!("CARGO_TARGET_TMPDIR"));
-    let output = driveline(&["rotor", FILE, "--html", &page]);
-    let table = String::from_utf8(output.stdout).unwrap();
+    let bench = Bench::new();
+    let table = bench.said(&["rotor", FILE, "--html", "page.html"]);
     assert!(table.contains("Critical speeds") && table.contains("forward"), "{table}");
-    let html = std::fs::read_to_string(page).unwrap();
+    let html = bench.read("page.html");
     assert!(html.starts_with("<!doctype html>") && html.contains("Campbell") && !html.contains("NaN"));
     assert_eq!(html.matches("<svg viewBox=\"0 0").count(), 2);
 }
@@ -48,19 +40,15 @@ fn the_page_has_its_plots() {
 /// Bearings that push across as strongly as they hold: far beyond what 2,500 N s/m damp below 600 rad/s.
 #[test]
 fn a_whirl_that_grows_is_told() {
-    let folder = tempfile::tempdir().unwrap();
-    let (file, page) = (folder.path().join("across.toml"), folder.path().join("across.html"));
     let across = "stiffness_x = 4.0e6\ncross_xy = 4.0e6\ncross_yx = -4.0e6\n";
     let three_discs = std::fs::read_to_string(FILE).unwrap();
-    std::fs::write(&file, three_discs.replace("stiffness_x = 4.0e6", across)).unwrap();
+    let bench = Bench::with("across.toml", three_discs.replace("stiffness_x = 4.0e6", across));
     // along y nothing is damped: at rest those whirls neither grow nor decay
-    let along_x = folder.path().join("along_x.toml");
-    std::fs::write(&along_x, three_discs.replace("damping_x = 2.5e3", "damping_x = 2.5e3\ndamping_y = 0.0")).unwrap();
-    for (rotor, grows) in [(FILE, false), (along_x.to_str().unwrap(), false), (file.to_str().unwrap(), true)] {
-        let output = driveline(&["rotor", rotor, "--html", page.to_str().unwrap()]);
-        let said = String::from_utf8(output.stdout).unwrap();
+    bench.write("along_x.toml", three_discs.replace("damping_x = 2.5e3", "damping_x = 2.5e3\ndamping_y = 0.0"));
+    for (rotor, grows) in [(FILE, false), ("along_x.toml", false), ("across.toml", true)] {
+        let said = bench.said(&["rotor", rotor, "--html", "page.html"]);
         assert_eq!(said.contains("\nwarning: unstable at 0 r/min: a whirl of"), grows, "{said}");
-        assert_eq!(std::fs::read_to_string(&page).unwrap().contains("Warning: unstable"), grows);
+        assert_eq!(bench.read("page.html").contains("Warning: unstable"), grows);
     }
 }
 
@@ -117,13 +105,8 @@ speeds = { highest = 300.0 }
 /// Static and couple unbalance by hand about the middle of the shaft; nothing of them and of the first mode is left.
 #[test]
 fn modal_balancing_is_told_and_drawn() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    let (file, page) = (path("long.toml"), path("long.html"));
-    std::fs::write(&file, LONG).unwrap();
-    let output = driveline(&["rotor", &file, "--json", "--html", &page]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let bench = Bench::with("long.toml", LONG);
+    let found = bench.json(&["rotor", "long.toml", "--html", "long.html"]);
     let (one, other) = (nalgebra::Complex::new(1e-4, 0.0), nalgebra::Complex::from_polar(6e-5, 130f64.to_radians()));
     let unbalances = found["balancing"]["unbalances"].as_array().unwrap();
     for (unbalance, (of, expected)) in
@@ -146,7 +129,7 @@ fn modal_balancing_is_told_and_drawn() {
     for (now, before) in peaks(&found["balancing"]["peaks"]).into_iter().zip(peaks(&found["peaks"])) {
         assert!(now < 0.05 * before, "{now} {before}");
     }
-    let html = std::fs::read_to_string(page).unwrap();
+    let html = bench.read("long.html");
     assert!(html.contains("Vibration with the weights") && html.contains("Balancing weights") && !html.contains("NaN"));
     assert_eq!(html.matches("<svg viewBox=\"0 0").count(), 3);
 }
@@ -174,35 +157,23 @@ fn planes_that_cannot_balance_are_refused() {
 fn a_mode_of_soft_bearings_is_not_blamed_on_a_plane() {
     let text = std::fs::read_to_string(FILE).unwrap();
     let text = text.replace("stiffness_x = 4.0e6", "stiffness_x = 100.0").replace("damping_x = 2.5e3", "");
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("soft.toml");
-    let run = |planes: &str| {
-        std::fs::write(&path, format!("{text}\n[balancing]\n{planes}\n")).unwrap();
-        let output = driveline(&["rotor", path.to_str().unwrap(), "--json"]);
-        (output.status.success(), String::from_utf8(output.stdout).unwrap() + &String::from_utf8_lossy(&output.stderr))
-    };
-    let (done, said) = run("planes = [2, 6, 10]\nmodes = 1");
-    assert!(!done && said.contains("rigid rotor on soft bearings") && said.contains("0 for a rotor"), "{said}");
+    let with = |planes: &str| format!("{text}\n[balancing]\n{planes}\n");
+    let said = Bench::with("soft.toml", with("planes = [2, 6, 10]\nmodes = 1")).failed(&["rotor", "soft.toml"]);
+    assert!(said.contains("rigid rotor on soft bearings") && said.contains("0 for a rotor"), "{said}");
     // its advice helps
-    let (done, said) = run("planes = [2, 10]\nmodes = 0");
-    assert!(done, "{said}");
+    answered("rotor", &with("planes = [2, 10]\nmodes = 0"));
 }
 
 /// On soft bearings, alike at both ends, a uniform shaft moves without bending in its first mode: a weight in its
 /// middle is the opposite of the static unbalance. Forward and backward whirls have the same speed, `sqrt(2 k/m)`.
 #[test]
 fn the_first_mode_of_soft_bearings_takes_the_static_unbalance() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("soft.toml");
     let (one, other) = (nalgebra::Complex::new(1e-4, 0.0), nalgebra::Complex::from_polar(6e-5, 130f64.to_radians()));
     let expected = -(one + other);
     let mass = 7850.0 * std::f64::consts::PI / 4.0 * 0.06_f64.powi(2) * 2.0;
     for stiffness in [1.0, 100.0, 300.0, 700.0] {
         let text = LONG.replace("stiffness_x = 2.0e7", &format!("stiffness_x = {stiffness:?}"));
-        std::fs::write(&path, text.replace("[2, 5, 8]", "[5]")).unwrap();
-        let output = driveline(&["rotor", path.to_str().unwrap(), "--json"]);
-        assert!(output.status.success(), "{stiffness}: {}", String::from_utf8_lossy(&output.stderr));
-        let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let found = answered("rotor", &text.replace("[2, 5, 8]", "[5]"));
         // the shaft gives 5 l^3/(384 E I) under its own load, 1.6e-6 m for 2 N/m of the springs; and rounding of the
         // elements' 12 E I/l^3 = 2e8 N/m beside those springs
         let close = 2e-6 * stiffness + 2e8 * f64::EPSILON / stiffness;
@@ -223,37 +194,26 @@ fn the_first_mode_of_soft_bearings_takes_the_static_unbalance() {
 /// Without a damper nothing decays or grows, and a resonance has no bound; circulatory stiffness makes a whirl grow.
 #[test]
 fn an_undamped_rotor_has_no_damping_and_no_height_of_its_resonance() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("undamped.toml");
-    let run = |text: &str, arguments: &[&str]| {
-        std::fs::write(&path, text).unwrap();
-        let html = folder.path().join("undamped.html");
-        let page = ["--html", html.to_str().unwrap()];
-        let output = driveline(&[&["rotor", path.to_str().unwrap()], &page[..], arguments].concat());
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        String::from_utf8(output.stdout).unwrap()
-    };
     let undamped = LONG.replace("damping_x = 2.0e3", "damping_x = 0.0");
-    let ratios = |said: &str| -> Vec<f64> {
-        let found: Value = serde_json::from_str(said).unwrap();
+    let ratios = |found: &Value| -> Vec<f64> {
         let speeds = found["whirls"].as_array().unwrap().iter();
         speeds.flat_map(|w| w.as_array().unwrap()).map(|w| w["damping_ratio"].as_f64().unwrap()).collect()
     };
-    let said = run(&undamped, &["--json"]);
-    assert!(ratios(&said).iter().all(|&ratio| ratio == 0.0), "{said}");
-    let found: Value = serde_json::from_str(&said).unwrap();
+    let bench = Bench::with("undamped.toml", &undamped);
+    let found = bench.json(&["rotor", "undamped.toml"]);
+    assert!(ratios(&found).iter().all(|&ratio| ratio == 0.0), "{found}");
     // the second sensor stands where the first mode bends most
     assert!(found["peaks"][1]["amplitude"].is_null(), "{}", found["peaks"]);
-    let said = run(&undamped, &[]);
+    let said = bench.said(&["rotor", "undamped.toml"]);
     assert!(said.contains("Natural whirls at rest") && said.contains("undamped"), "{said}");
     // the mode that was balanced has no resonance left, though rounding has
     let soft = undamped.replace("stiffness_x = 2.0e7", "stiffness_x = 100.0").replace("[2, 5, 8]", "[5]");
-    let found: Value = serde_json::from_str(&run(&soft, &["--json"])).unwrap();
+    let found = answered("rotor", &soft);
     assert!(found["peaks"][1]["amplitude"].is_null() && found["balancing"]["peaks"][1]["amplitude"].is_number());
     let driven = LONG.replace("damping_x = 2.0e3", "damping_x = 0.0, cross_xy = 1e5, cross_yx = -1e5");
     let driven = driven.lines().filter(|line| !line.starts_with("balancing")).collect::<Vec<_>>().join("\n");
-    let said = run(&driven, &["--json"]);
-    assert!(ratios(&said).iter().any(|&ratio| ratio < -1e-6), "{said}");
+    let found = answered("rotor", &driven);
+    assert!(ratios(&found).iter().any(|&ratio| ratio < -1e-6), "{found}");
 }
 
 /// Strong dampers lock the bearings: the resonances are neither those of the undamped rotor nor on even speeds. Expected:
@@ -261,8 +221,6 @@ fn an_undamped_rotor_has_no_damping_and_no_height_of_its_resonance() {
 /// refined; matrices integrated from the shapes of a shear-flexible beam, numpy 2.4.
 #[test]
 fn the_largest_vibration_of_strong_dampers_is_that_of_a_dense_sweep() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("strong.toml");
     let text = std::fs::read_to_string(FILE).unwrap();
     for (bearing, expected) in [
         ("damping_x = 2.5e3", [8.195_079_123_548e-5, 8.273_920_987_172e-5]),
@@ -270,9 +228,7 @@ fn the_largest_vibration_of_strong_dampers_is_that_of_a_dense_sweep() {
         ("stiffness_y = 2e6\ndamping_x = 1e6\ndamping_y = 2e5", [6.982_573_954_608e-5, 7.009_635_551_589e-5]),
         ("stiffness_y = 2e6\ndamping_x = 1e8\ndamping_y = 1e7", [2.593_894_953_413e-3, 2.594_141_755_761e-3]),
     ] {
-        std::fs::write(&path, text.replace("damping_x = 2.5e3", bearing)).unwrap();
-        let output = driveline(&["rotor", path.to_str().unwrap(), "--json"]);
-        let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let found = answered("rotor", &text.replace("damping_x = 2.5e3", bearing));
         for (peak, expected) in found["peaks"].as_array().unwrap().iter().zip(expected) {
             let amplitude = peak["amplitude"].as_f64().unwrap();
             // the narrowest half-width, 1e-4 of the speed, is 1e6 times the rounding of the stiffness
@@ -286,11 +242,9 @@ fn the_largest_vibration_of_strong_dampers_is_that_of_a_dense_sweep() {
 fn a_rotor_of_many_pieces_says_what_takes_long() {
     let text = std::fs::read_to_string(FILE).unwrap();
     let text = text.replace("pieces = 12", "pieces = 200").replace("node = 12", "node = 200");
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("many.toml");
-    std::fs::write(&path, text).unwrap();
+    let bench = Bench::with("many.toml", text);
     let begun = std::time::Instant::now();
-    let output = driveline(&["rotor", path.to_str().unwrap(), "--json"]);
+    let output = bench.run(&["rotor", "many.toml", "--json"]);
     let (took, said) = (begun.elapsed().as_secs(), String::from_utf8(output.stderr).unwrap());
     assert!(output.status.success(), "{said}");
     // two stages, each of up to five seconds without a word

@@ -1,16 +1,15 @@
 //! `cargo driveline simulate` as a user meets it.
 
-use std::process::{Command, Output};
-
 use std::f64::consts::TAU;
 
 use cargo_driveline::machine_file::parse_train;
 use driveline_solver::plant::train::{Coordinate, FourBar, FourBarPins, Orders, Source, StrokeLoad, Train, rubbing};
+use serde_json::Value;
 
-fn simulate(arguments: &[&str]) -> Output {
-    let folder = env!("CARGO_TARGET_TMPDIR");
-    let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-    command.arg("simulate").args(arguments).current_dir(folder).output().unwrap()
+use super::bench::{Bench, answered};
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap()
 }
 
 fn machine(name: &str) -> String {
@@ -28,15 +27,9 @@ const STEP: &str = "name = \"step\"\n\
 
 #[test]
 fn the_dynamic_factor_of_a_step_is_two() {
-    let folder = tempfile::tempdir().unwrap();
-    let [file, csv, html] = ["step.toml", "step.csv", "step.html"].map(|name| folder.path().join(name));
     // the shaft carries what the load's share of the inertia takes: 100 x 0.3/1.5
-    let text = STEP.replace("stiffness = 850.0", "stiffness = 850.0\nstatic = 20.0");
-    std::fs::write(&file, text).unwrap();
-    let [csv_path, html_path] = [&csv, &html].map(|path| path.to_str().unwrap());
-    let output = simulate(&[file.to_str().unwrap(), "--json", "--csv", csv_path, "--html", html_path]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let bench = Bench::with("step.toml", STEP.replace("stiffness = 850.0", "stiffness = 850.0\nstatic = 20.0"));
+    let found = bench.json(&["simulate", "step.toml", "--csv", "step.csv", "--html", "step.html"]);
     let shaft = &found["links"][0];
     // undamped step, exact to rounding: extremes are found between the samples
     assert!((shaft["dynamic_factor"].as_f64().unwrap() - 2.0).abs() < 1e-13, "{shaft}");
@@ -47,7 +40,7 @@ fn the_dynamic_factor_of_a_step_is_two() {
     // of equal peaks the first is told
     assert!(swings == 1.0 && (peak - swings * std::f64::consts::PI / omega).abs() < 1e-6, "{peak}");
     assert!(found["proof"][0].as_f64().unwrap() < 1e-8);
-    let table = std::fs::read_to_string(csv).unwrap();
+    let table = bench.read("step.csv");
     let mut lines = table.lines();
     assert_eq!(lines.next(), Some("time,\"motor speed\",\"load speed\",\"shaft force\""));
     assert_eq!(lines.next(), Some("0,0,0,0"));
@@ -58,7 +51,7 @@ fn the_dynamic_factor_of_a_step_is_two() {
         // the closed form over five hundred samples, each rounded
         assert!((numbers[3] - expected).abs() < 1e-10, "{line}");
     }
-    let page = std::fs::read_to_string(html).unwrap();
+    let page = bench.read("step.html");
     assert!(page.starts_with("<!doctype html>") && page.contains("<svg") && !page.contains("NaN"));
 }
 
@@ -74,9 +67,7 @@ fn the_machines_in_the_repository_run_and_are_proven() {
         ("travel", ["gear", "separation"]),
         ("tilting", ["train 2", "separation"]),
     ] {
-        let output = simulate(&[&machine(name)]);
-        assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
-        let text = String::from_utf8(output.stdout).unwrap();
+        let text = Bench::new().said(&["simulate", &machine(name)]);
         assert!(text.contains("proven: a second integrator"), "{text}");
         assert!(words.iter().all(|word| text.contains(word)), "{text}");
     }
@@ -85,8 +76,6 @@ fn the_machines_in_the_repository_run_and_are_proven() {
 /// Lightly damped and lightly loaded, between both flanks, for a long time: chaos. No run is the only one of its start.
 #[test]
 fn a_sensitive_run_is_proven_in_pieces_and_says_so() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("rattle.toml");
     let text = std::fs::read_to_string(machine("gear-pair")).unwrap();
     let text = text
         .replace("damping = 3561.695654463696", "damping = 10.0")
@@ -95,30 +84,21 @@ fn a_sensitive_run_is_proven_in_pieces_and_says_so() {
         .replace("torque = 250.0", "torque = 5.0")
         .replace("torque = -595.2380952380952", "torque = -11.904761904761905")
         .replace("time = 0.02", "time = 0.2");
-    std::fs::write(&file, text).unwrap();
-    let file = file.to_str().unwrap();
-    let output = simulate(&[file, "--json"]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let bench = Bench::with("rattle.toml", text);
+    let found = bench.json(&["simulate", "rattle.toml"]);
     assert!(found["sensitive"]["pieces"].as_u64().unwrap() > 0 && found["proof"][0].as_f64().unwrap() <= 1e-8);
     assert!(found["sensitive"]["from"].as_f64().unwrap() < 0.2);
-    let said = String::from_utf8(simulate(&[file]).stdout).unwrap();
+    let said = bench.said(&["simulate", "rattle.toml"]);
     assert!(said.contains("sensitive: proven from the start up to") && said.contains("one possible run"), "{said}");
-    let output = simulate(&[file, "--json", "--unproven"]);
-    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert!(output.status.success() && found["proof"].is_null() && found["sensitive"].is_null());
+    let found = bench.json(&["simulate", "rattle.toml", "--unproven"]);
+    assert!(found["proof"].is_null() && found["sensitive"].is_null());
 }
 
 /// The gear pair that is shipped, for fifty times its time.
 #[test]
 fn the_gear_pair_runs_for_a_second() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("second.toml");
     let text = std::fs::read_to_string(machine("gear-pair")).unwrap();
-    std::fs::write(&file, text.replace("time = 0.02", "time = 1.0")).unwrap();
-    let output = simulate(&[file.to_str().unwrap(), "--json"]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let found = answered("simulate", &text.replace("time = 0.02", "time = 1.0"));
     assert!(found["proof"][0].as_f64().unwrap() <= 1e-8 && found["sensitive"].is_null(), "{}", found["proof"]);
 }
 
@@ -126,33 +106,26 @@ fn the_gear_pair_runs_for_a_second() {
 /// `1 + exp(-pi D/sqrt(1 - D^2))` of the static one; `modes` shows the same eigenvalue.
 #[test]
 fn the_elastic_factor_and_the_damped_vibration_of_a_step() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("damped.toml");
     let text = STEP.replace("stiffness = 850.0", "stiffness = 850.0\nstatic = 20.0\ndamping = 2.0");
-    std::fs::write(&file, text).unwrap();
-    let path = file.to_str().unwrap();
-    let found: serde_json::Value = serde_json::from_slice(&simulate(&[path, "--json"]).stdout).unwrap();
+    let bench = Bench::with("damped.toml", text);
+    let found = bench.json(&["simulate", "damped.toml"]);
     let shares = 1.0 / 1.2 + 1.0 / 0.3;
     let (omega, decay) = ((850.0_f64 * shares).sqrt(), 0.5 * 2.0 * shares);
     let damped = (omega * omega - decay * decay).sqrt();
     let expected = 1.0 + (-std::f64::consts::PI * decay / damped).exp();
     // without an event none was located closer
-    assert!(found["proof"][1].is_null() && String::from_utf8(simulate(&[path]).stdout).unwrap().contains("no events"));
+    assert!(found["proof"][1].is_null() && bench.said(&["simulate", "damped.toml"]).contains("no events"));
     let shaft = &found["links"][0];
     // roundings of the run
     assert!((shaft["elastic_factor"].as_f64().unwrap() - expected).abs() < 1e-12, "{shaft} {expected}");
     assert!(shaft["dynamic_factor"].as_f64().unwrap() > expected);
-    let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-    let output = command.args(["modes", path, "--json"]).output().unwrap();
-    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let found = bench.json(&["modes", "damped.toml"]);
     let one = &found["damped"][0];
     assert_eq!(found["damped"].as_array().unwrap().len(), 1, "{found}");
     // an eigenvalue of a matrix of three
     assert!((one["decay"].as_f64().unwrap() / decay - 1.0).abs() < 1e-12, "{one}");
     assert!((one["frequency"].as_f64().unwrap() / damped - 1.0).abs() < 1e-12, "{one}");
-    std::fs::write(&file, STEP).unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_cargo-driveline")).args(["modes", path, "--json"]).output().unwrap();
-    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let found = answered("modes", STEP);
     assert!(found["damped"].as_array().unwrap().is_empty(), "{found}");
 }
 
@@ -215,15 +188,9 @@ fn drum(inertia: &str, stiffness: &str, damping: &str) -> String {
 
 #[test]
 fn a_train_that_is_too_stiff_for_its_run_is_refused_at_once_with_place_and_range() {
-    let folder = tempfile::tempdir().unwrap();
     let refused = |text: &str| {
-        let file = folder.path().join("stiff.toml");
-        std::fs::write(&file, text).unwrap();
-        let path = file.to_str().unwrap();
-        let output = simulate(&[path, "--json"]);
-        assert_eq!(output.status.code(), Some(2), "{}", String::from_utf8_lossy(&output.stderr));
-        assert!(output.stdout.is_empty());
-        let value: serde_json::Value = serde_json::from_slice(&output.stderr).unwrap();
+        let said = Bench::with("stiff.toml", text).refused(&["simulate", "stiff.toml", "--json"]);
+        let value: Value = serde_json::from_str(&said).unwrap();
         (value["at"]["line"].as_u64().unwrap(), value["error"].as_str().unwrap().to_owned())
     };
     // 1e11/1e-12 is a decay of 1e23 1/s; what is heavy beside it does not slow it
@@ -248,13 +215,8 @@ fn a_train_that_is_too_stiff_for_its_run_is_refused_at_once_with_place_and_range
 
 #[test]
 fn what_is_stiff_but_not_too_stiff_is_solved_and_proven() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("stiff.toml");
     // 0.1/2e-6 = 5e4 1/s, and twice that of the shafts' swing together
-    std::fs::write(&file, drum("2e-6", "850.0", "0.0").replace("time = 0.5", "time = 0.05")).unwrap();
-    let output = simulate(&[file.to_str().unwrap(), "--json"]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let found = answered("simulate", &drum("2e-6", "850.0", "0.0").replace("time = 0.5", "time = 0.05"));
     assert!(found["proof"][0].as_f64().unwrap() < 1e-8);
 }
 
@@ -271,14 +233,10 @@ fn a_time_that_is_no_multiple_of_the_step_is_refused() {
 /// A motor whose torque rises with its speed runs away: the run ends, and says what has grown.
 #[test]
 fn a_run_that_grows_without_bound_is_refused_by_name() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("runaway.toml");
     let runaway = "kind = \"line\"\nstall = 100.0\nslope = -2000.0";
-    std::fs::write(&file, STEP.replace("kind = \"constant\"\ntorque = 100.0", runaway)).unwrap();
-    let output = simulate(&[file.to_str().unwrap(), "--json"]);
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(!output.status.success() && said.contains("grows without bound"), "{said}");
-    assert!(said.contains("motor"), "{said}");
+    let bench = Bench::with("runaway.toml", STEP.replace("kind = \"constant\"\ntorque = 100.0", runaway));
+    let said = bench.failed(&["simulate", "runaway.toml", "--json"]);
+    assert!(said.contains("grows without bound") && said.contains("motor"), "{said}");
 }
 
 /// An external gear turns what is behind it the other way: speeds in the ratio, once the shaft's swing is taken off by
@@ -412,8 +370,6 @@ fn losses_without_a_shaft_are_refused_by_name() {
 /// much as is missing has the delta that the class permits.
 #[test]
 fn the_swing_of_the_energy_and_the_flywheel_are_those_of_the_closed_form() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("drum.toml");
     for k in 0..20 {
         let (inertia, swing, speed) = (0.5 * 1.2_f64.powi(k), 20.0 * 1.3_f64.powi(k), 20.0 + f64::from(k));
         let text = format!(
@@ -421,12 +377,7 @@ fn the_swing_of_the_energy_and_the_flywheel_are_those_of_the_closed_form() {
              on = \"drum\"\nkind = \"orders\"\nharmonics = [[2.0, {swing:?}, 0.0]]\n[run]\ntime = 0.1\nstep = \
              0.01\ncycle = \"drum\"\n"
         );
-        std::fs::write(&file, &text).unwrap();
-        let output = simulate(&[file.to_str().unwrap(), "--json"]);
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-        let cycle = &found["cycle"];
-        let number = |value: &serde_json::Value| value.as_f64().unwrap();
+        let cycle = &answered("simulate", &text)["cycle"];
         assert!((number(&cycle["swing"]["energy"]) / swing - 1.0).abs() < 1e-6, "{cycle}");
         let mean = 0.5 * (number(&cycle["greatest"]) + number(&cycle["least"]));
         for class in cycle["swing"]["classes"].as_array().unwrap() {
@@ -442,9 +393,7 @@ fn the_swing_of_the_energy_and_the_flywheel_are_those_of_the_closed_form() {
 /// mean energy as it was, delta is the permissible one.
 #[test]
 fn the_flywheel_of_a_crank_gives_the_delta_that_it_is_for() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("crank.toml");
-    let cycle = |flywheel: f64, speed: f64| -> serde_json::Value {
+    let cycle = |flywheel: f64, speed: f64| {
         let crank = format!(
             "inertia = {:?}\nspeed = {speed:?}\n[coordinate.crank]\nradius = 0.08\nrod = 0.3\nslider_mass = 40.0\n\
              [[torque]]\non = \"crank\"\nkind = \"orders\"\nharmonics = [[2.0, 60.0, 0.0]]\n",
@@ -454,13 +403,9 @@ fn the_flywheel_of_a_crank_gives_the_delta_that_it_is_for() {
             "name = \"crank\"\n[[coordinate]]\nname = \"crank\"\n{crank}[run]\ntime = 0.1\nstep = 0.01\ncycle = \
              \"crank\"\n"
         );
-        std::fs::write(&file, &text).unwrap();
-        let output = simulate(&[file.to_str().unwrap(), "--json"]);
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        serde_json::from_slice::<serde_json::Value>(&output.stdout).unwrap()["cycle"].clone()
+        answered("simulate", &text)["cycle"].clone()
     };
     let alone = cycle(0.0, 20.0);
-    let number = |value: &serde_json::Value| value.as_f64().unwrap();
     let (mean, mut tried) = (0.5 * (number(&alone["greatest"]) + number(&alone["least"])), 0);
     for class in alone["swing"]["classes"].as_array().unwrap() {
         for (permissible, missing) in [0, 1].map(|k| (number(&class["permissible"][k]), number(&class["missing"][k]))) {
@@ -494,7 +439,6 @@ fn press(mechanism: &str, stroke: &str) -> String {
 /// over the closed forms of the velocities, `host-tests/solver/tests/solver/train/linkage.rs`.
 #[test]
 fn the_steady_cycle_of_a_press_has_the_fluctuation_of_shooting() {
-    let folder = tempfile::tempdir().unwrap();
     let line = |stall: f64, slope: f64| {
         format!("[[torque]]\non = \"crank\"\nkind = \"line\"\nstall = {stall:?}\nslope = {slope:?}\n")
     };
@@ -506,27 +450,21 @@ fn the_steady_cycle_of_a_press_has_the_fluctuation_of_shooting() {
         (press(slider, "force = -9000.0\nfrom = 3.6\nto = 5.2\n") + &line(900.0, 20.0), 0.049_523_572_944),
     ];
     for (text, expected) in cases {
-        let file = folder.path().join("press.toml");
-        std::fs::write(&file, &text).unwrap();
-        let output = simulate(&[file.to_str().unwrap(), "--json"]);
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let bench = Bench::with("press.toml", &text);
+        let found = bench.json(&["simulate", "press.toml"]);
         let delta = found["cycle"]["delta"].as_f64().unwrap();
         assert!((delta / expected - 1.0).abs() < 1e-7, "{delta} {expected}");
         let proof = found["cycle"]["proof"].as_array().unwrap();
         assert!(proof.iter().all(|share| share.as_f64().unwrap() <= 1e-8), "{proof:?}");
-        let said = String::from_utf8(simulate(&[file.to_str().unwrap()]).stdout).unwrap();
+        let said = bench.said(&["simulate", "press.toml"]);
         assert!(said.contains("Steady cycle") && said.contains("cycle proven: it comes back to"), "{said}");
-        let said = String::from_utf8(simulate(&[file.to_str().unwrap(), "--unproven"]).stdout).unwrap();
+        let said = bench.said(&["simulate", "press.toml", "--unproven"]);
         assert!(said.contains("cycle not proven: the proof was left out"), "{said}");
     }
     // without a line nothing brings it to a speed of its own
     let text = press(slider, "force = -9000.0\nfrom = 3.6\nto = 5.2\n").replace("speed = 30.0", "speed = 300.0");
-    let file = folder.path().join("press.toml");
-    std::fs::write(&file, text).unwrap();
-    let output = simulate(&[file.to_str().unwrap()]);
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(!output.status.success() && said.contains("does not settle to a cycle of 1 turn within"), "{said}");
+    let said = Bench::with("press.toml", text).failed(&["simulate", "press.toml"]);
+    assert!(said.contains("does not settle to a cycle of 1 turn within"), "{said}");
 }
 
 /// What no mechanism is, is refused at its own key.
@@ -596,13 +534,7 @@ fn weights_tables_of_inertia_and_arcs_of_two_turns_do_their_work() {
 /// The modes of a train need no `[run]`: two masses on a shaft, `sqrt(k (1/J_1 + 1/J_2))`.
 #[test]
 fn modes_of_a_train_need_no_run() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("modes.toml");
-    std::fs::write(&file, STEP.replace("[run]\ntime = 0.5\nstep = 1e-3\n", "")).unwrap();
-    let path = file.to_str().unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_cargo-driveline")).args(["modes", path, "--json"]).output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let found = answered("modes", &STEP.replace("[run]\ntime = 0.5\nstep = 1e-3\n", ""));
     let omega = found["resonances"][0]["frequency"].as_f64().unwrap();
     // some roundings
     assert!((omega / (850.0_f64 * (1.0 / 1.2 + 1.0 / 0.3)).sqrt() - 1.0).abs() < 1e-14, "{omega}");
@@ -762,23 +694,18 @@ fn mechanisms_by_their_keys_do_their_work() {
             assert!((energy - expected).abs() < 1e-5 * expected, "{angle}: {energy} {expected}");
         }
     }
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("back.toml");
     let text = press(
         "inertia = 2.0\nspeed = 20.0\n[coordinate.crank]\nradius = 0.08\nrod = 0.3\nslider_mass = 8.0\n\
          friction = 5.0\n",
         "force = 1.0\n",
     );
     let brake = "[[torque]]\non = \"crank\"\nkind = \"constant\"\ntorque = -80.0\n";
-    std::fs::write(&file, (text.replace("cycle = \"crank\"\n", "")) + brake).unwrap();
-    let output = simulate(&[file.to_str().unwrap()]);
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(!output.status.success() && said.contains("\"crank\" turns backwards"), "{said}");
+    let bench = Bench::with("back.toml", text.replace("cycle = \"crank\"\n", "") + brake);
+    let said = bench.failed(&["simulate", "back.toml"]);
+    assert!(said.contains("\"crank\" turns backwards"), "{said}");
     let at_rest = text.replace("speed = 20.0", "angle = 1.0").replace("cycle = \"crank\"\n", "");
-    std::fs::write(&file, at_rest).unwrap();
-    let output = simulate(&[file.to_str().unwrap()]);
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(!output.status.success() && said.contains("\"crank\" starts at rest"), "{said}");
+    let said = Bench::with("rest.toml", at_rest).failed(&["simulate", "rest.toml"]);
+    assert!(said.contains("\"crank\" starts at rest"), "{said}");
     let said =
         parse_train("x", &press("inertia = 1.0\n[coordinate.cam]\nlift = [0.0, 0.1]\nmass = 1.0\n", "force = 1.0\n"));
     assert!(said.unwrap_err().to_string().contains("an odd number of values"));
@@ -788,8 +715,6 @@ fn mechanisms_by_their_keys_do_their_work() {
 /// backwards is named as such.
 #[test]
 fn pins_are_of_forward_motion_where_they_take_a_torque() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("pins.toml");
     let crank = "inertia = 2.0\nspeed = -20.0\n[coordinate.crank]\nradius = 0.08\nrod = 0.3\nslider_mass = 8.0\n\
                  [coordinate.crank.pins]\ncoefficient = 0.1\nmain = 0.03\n";
     let loaded = press(crank, "force = 30.0\n").replace("cycle = \"crank\"\n", "");
@@ -803,14 +728,13 @@ fn pins_are_of_forward_motion_where_they_take_a_torque() {
         (loaded.replace("main = 0.03\n", ""), true),
         (loaded.clone(), false),
     ] {
-        std::fs::write(&file, &text).unwrap();
-        let output = simulate(&[file.to_str().unwrap()]);
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(if without_effect { 0 } else { 2 }), "{text}{said}");
-        assert!(
-            without_effect || said.contains("-20 of \"crank\", whose friction is that of forward motion"),
-            "{said}"
-        );
+        let bench = Bench::with("pins.toml", text);
+        if without_effect {
+            bench.said(&["simulate", "pins.toml"]);
+        } else {
+            let said = bench.refused(&["simulate", "pins.toml"]);
+            assert!(said.contains("-20 of \"crank\", whose friction is that of forward motion"), "{said}");
+        }
     }
 }
 
@@ -880,12 +804,7 @@ fn the_pins_of_a_four_bar_are_those_of_a_train_by_hand() {
     let fault = parse_train("press", &jammed).err().unwrap();
     assert_eq!(jammed.lines().nth(fault.line - 1), Some("[coordinate.four_bar.pins]"), "{fault}");
     assert!(fault.to_string().contains("less inertia of the rocker or more of the crank"), "{fault}");
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("press.toml");
-    std::fs::write(&path, text(table)).unwrap();
-    let output = simulate(&[path.to_str().unwrap(), "--json"]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let result: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let result = answered("simulate", &text(table));
     assert!(!result["proof"].is_null(), "{result}");
     let mut motion = by_hand.build().unwrap();
     motion.advance(1.0);
@@ -909,13 +828,10 @@ fn friction_on_a_moving_surface_is_refused_at_its_table() {
 /// Elements turn; of its own coordinates a file does not say which are ways.
 #[test]
 fn the_tables_have_the_units_that_the_file_leaves_open() {
-    let headings = |file: &str| String::from_utf8(simulate(&[file, "--html", "units.html"]).stdout).unwrap();
-    let elements = headings(&machine("hoist-start"));
+    let bench = Bench::with("step.toml", STEP);
+    let elements = bench.said(&["simulate", &machine("hoist-start")]);
     assert!(elements.contains("least N m ") && elements.contains("least rad/s ") && !elements.contains(" or N"));
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("step.toml");
-    std::fs::write(&file, STEP).unwrap();
-    let own = headings(file.to_str().unwrap());
+    let own = bench.said(&["simulate", "step.toml"]);
     assert!(own.contains("least N m or N ") && own.contains("least rad or m ") && own.contains("least rad/s or m/s "));
 }
 
@@ -923,8 +839,6 @@ fn the_tables_have_the_units_that_the_file_leaves_open() {
 /// `(w1 - w2)^2/(2 T (1/J1 + 1/J2))`.
 #[test]
 fn the_heat_of_a_slip_clutch_is_the_energy_that_is_lost() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("clutch.toml");
     for k in 0..20 {
         let [one, other, torque] = [0.1 * 1.4_f64.powi(k), 20.0 / 1.3_f64.powi(k), 3.0 * 1.2_f64.powi(k)];
         let [fast, slow] = [100.0 - f64::from(k), f64::from(k % 3) - 1.0];
@@ -937,11 +851,7 @@ fn the_heat_of_a_slip_clutch_is_the_energy_that_is_lost() {
              [run]\ntime = {time:?}\nstep = {:?}\n",
             time / 50.0
         );
-        std::fs::write(&file, text).unwrap();
-        let output = simulate(&[file.to_str().unwrap(), "--json"]);
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-        let clutch = &found["frictions"][0];
+        let clutch = &answered("simulate", &text)["frictions"][0];
         assert_eq!(clutch["name"], "motor on load");
         let close = |key: &str, expected: f64, within: f64| {
             let found = clutch[key].as_f64().unwrap();

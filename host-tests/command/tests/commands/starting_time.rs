@@ -1,23 +1,15 @@
 //! Starting times by `simulate`, each against its closed form.
 
-use std::process::Command;
-
 use cargo_driveline::machine_file::parse_train;
+
+use super::bench::Bench;
 
 /// Simulated and rigid starting time of a machine (s), and what a reader sees of them.
 fn starting(text: &str) -> (Option<f64>, Option<f64>, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("start.toml");
-    std::fs::write(&file, text).unwrap();
-    let run = |options: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-        let output = command.arg("simulate").args(options).arg(&file).current_dir(folder.path()).output().unwrap();
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        output.stdout
-    };
-    let found: serde_json::Value = serde_json::from_slice(&run(&["--json"])).unwrap();
+    let bench = Bench::with("start.toml", text);
+    let found = bench.json(&["simulate", "start.toml"]);
     let time = |key: &str| found["starting"][key].as_f64();
-    (time("time"), time("rigid"), String::from_utf8(run(&[])).unwrap())
+    (time("time"), time("rigid"), bench.said(&["simulate", "start.toml"]))
 }
 
 /// One mass with a load that is constant, its mover, and its target.

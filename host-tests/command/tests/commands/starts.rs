@@ -1,7 +1,8 @@
 //! Dynamic factors that `modes` prints, against an integration of one's own.
 
 use std::f64::consts::{PI, TAU};
-use std::process::Command;
+
+use super::bench::answered;
 
 /// Largest change of the shaft's torque of an undamped vibration at 1 rad/s under a torque of time, by Runge-Kutta of
 /// order four; the fourth power of a step of 1/2000 period is below 1e-10.
@@ -33,8 +34,6 @@ fn factor(torque: impl Fn(f64) -> f64, time: f64) -> f64 {
 
 #[test]
 fn starts_are_those_of_an_integration() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("mill.toml");
     // twenty machines: inertias and stiffness over decades
     for k in 0..20 {
         let [motor, load, stiffness] = [0.2 * 1.3_f64.powi(k), 3.0 / 1.2_f64.powi(k), 500.0 * 1.5_f64.powi(k)];
@@ -44,12 +43,7 @@ fn starts_are_those_of_an_integration() {
              [control]\nrate_hz = 4000\n[disturbance]\ntorque_accuracy = 2.0\nload_torque_step = 60.0\nwithin = 0.1\n\
              [limits]\ntorque = 300.0\nspeed = 100.0\n"
         );
-        std::fs::write(&file, text).unwrap();
-        let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-        let output = command.args(["modes", "--json"]).arg(&file).current_dir(folder.path()).output().unwrap();
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-        let starts = &found["starts"];
+        let starts = &answered("modes", &text)["starts"];
         let omega = (stiffness * (motor + load) / (motor * load)).sqrt();
         let close = |found: &serde_json::Value, expected: f64| {
             let found = found.as_f64().unwrap();

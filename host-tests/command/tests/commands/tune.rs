@@ -1,9 +1,8 @@
 //! `campaign --tune`: the search against functions whose least value is known, and the command on a machine file.
 
-use std::fs;
-use std::process::Command;
-
 use cargo_driveline::campaign::tune::{Text, Tuned, search};
+
+use super::bench::Bench;
 
 fn key(name: &str, low: f64, high: f64) -> Tuned {
     Tuned { key: name.to_owned(), low, high }
@@ -68,23 +67,14 @@ fn a_wrong_range_names_the_form() {
 
 #[test]
 fn a_machine_file_is_tuned_and_written() {
-    let folder = tempfile::tempdir().unwrap();
     let machine = include_str!("../../machines/roll.toml").replace("rate_hz = 10000", "rate_hz = 2000");
-    fs::write(folder.path().join("roll.toml"), &machine).unwrap();
-    let run = |arguments: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
-        command.current_dir(&folder).args(["driveline", "campaign", "roll.toml", "--draws", "4"]).args(arguments);
-        command.output().unwrap()
-    };
-    let accuracy = run(&["--tune", "disturbance.torque_accuracy=1..10"]);
-    let said = String::from_utf8_lossy(&accuracy.stderr).into_owned();
-    assert_eq!(accuracy.status.code(), Some(2));
+    let bench = Bench::with("roll.toml", &machine);
+    let tune = ["campaign", "roll.toml", "--draws", "4", "--tune"];
+    let said = bench.refused(&[&tune[..], &["disturbance.torque_accuracy=1..10"]].concat());
     assert!(said.contains("torque_noise = 3.0"), "{said}");
 
-    let output =
-        run(&["--tune", "disturbance.within=0.1..100", "--least", "load-torque", "--tuned", "t.toml", "--json"]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let within = ["disturbance.within=0.1..100", "--least", "load-torque", "--tuned", "t.toml"];
+    let found = bench.json(&[&tune[..], &within].concat());
     let number = |value: &serde_json::Value| value.as_f64().unwrap();
     let figures = found["figures"].as_array().unwrap();
     let load = figures.iter().find(|figure| figure["name"] == found["least"][0]).unwrap();
@@ -92,11 +82,10 @@ fn a_machine_file_is_tuned_and_written() {
     let tried = found["tried"].as_array().unwrap();
     assert_eq!(tried[0]["objective"], load["to"]);
     // the file differs by the value alone
-    let written = fs::read_to_string(folder.path().join("t.toml")).unwrap();
+    let written = bench.read("t.toml");
     let to = number(&found["to"][0]);
     assert_eq!(written, machine.replace("within = 10.0 ", &format!("within = {to:?} ")));
     // the input is not written over
-    let over = run(&["--tune", "disturbance.within=0.1..100", "--tuned", "roll.toml"]);
-    assert!(!over.status.success());
-    assert_eq!(fs::read_to_string(folder.path().join("roll.toml")).unwrap(), machine);
+    bench.refused(&[&tune[..], &["disturbance.within=0.1..100", "--tuned", "roll.toml"]].concat());
+    assert_eq!(bench.read("roll.toml"), machine);
 }
