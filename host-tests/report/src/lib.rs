@@ -28,7 +28,7 @@ mod table;
 mod trajectory;
 
 pub use report::Report;
-pub use results::{Budget, Deviation, Fact, Instructions, Variant};
+pub use results::{Budget, Deviation, Fact, Instructions, Variant, fact};
 pub use sample::{SAMPLES, Sample, Sampled, samples_table};
 pub use sheet::{Arrangement, Figure, Key, Section, Sheet};
 pub use table::{Table, variants_table};

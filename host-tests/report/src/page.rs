@@ -57,14 +57,12 @@ impl Report {
         }
         tables.push(Section::new("Measured, and only estimated", self.notes.join(" "), Table::default()));
         let shown = self.trajectories.iter().take(COURSES);
-        let courses = shown.map(|trajectory| Figure {
-            title: format!("{}, {}", trajectory.situation, trajectory.variant),
-            text: "Truth from the full solver, the estimate from the motor's angle and torque alone, and under each \
-                   their difference."
-                .to_owned(),
-            legend: ["truth", "estimate", "error"].map(|class| Key::curve(class, class)).to_vec(),
-            plots: vec![chart::course(trajectory, STRETCHES)],
-            ..Figure::default()
+        let text = "Truth from the full solver, the estimate from the motor's angle and torque alone, and under each \
+                    their difference.";
+        let legend = ["truth", "estimate", "error"].map(|class| Key::curve(class, class));
+        let courses = shown.map(|trajectory| {
+            let title = format!("{}, {}", trajectory.situation, trajectory.variant);
+            Figure::new(title, text, legend.to_vec(), vec![chart::course(trajectory, STRETCHES)])
         });
         Sheet {
             name: self.scene.clone(),

@@ -93,6 +93,11 @@ pub struct Fact {
     pub value: String,
 }
 
+/// The fact of this name.
+pub fn fact(name: impl Into<String>, value: String) -> Fact {
+    Fact { name: name.into(), value }
+}
+
 /// JSON has no infinity: what diverged is `null`.
 pub(super) mod diverged_as_null {
     use serde::Serializer;

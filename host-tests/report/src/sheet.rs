@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
+use super::chart::{Line, over_time};
 use super::page::fill;
 use super::results::Fact;
 use super::table::Table;
@@ -35,6 +36,19 @@ pub struct Figure {
     pub plots: Vec<String>,
     /// How the plots stand.
     pub arrangement: Arrangement,
+}
+
+impl Figure {
+    /// With its plots one below the other.
+    pub fn new(title: impl Into<String>, text: impl Into<String>, legend: Vec<Key>, plots: Vec<String>) -> Self {
+        Self { title: title.into(), text: text.into(), legend, plots, arrangement: Arrangement::Below }
+    }
+
+    /// One plot of lines over time (s) with `quantity` at its axis; `marks` are times of events.
+    pub fn over_time(title: &str, text: String, time: &[f64], lines: &[Line], quantity: &str, marks: &[f64]) -> Self {
+        let legend = lines.iter().map(|line| Key::curve(&*line.name, &*line.class)).collect();
+        Self::new(title, text, legend, vec![over_time(time, lines, quantity, marks)])
+    }
 }
 
 /// How the plots of a figure stand.

@@ -49,13 +49,9 @@ impl Summary {
             logarithmic: true,
             ..Lines::default()
         };
-        Drawing {
-            title: "Errors of the estimates".to_owned(),
-            text: "Torques of rated torque, speeds of rated speed.".to_owned(),
-            legend: ERRORS.iter().enumerate().map(|(at, f)| Key::curve(f.name(), format!("s{at}"))).collect(),
-            plots: vec![lines.draw()],
-            ..Drawing::default()
-        }
+        let text = "Torques of rated torque, speeds of rated speed.";
+        let legend = ERRORS.iter().enumerate().map(|(at, f)| Key::curve(f.name(), format!("s{at}")));
+        Drawing::new("Errors of the estimates", text, legend.collect(), vec![lines.draw()])
     }
 
     /// An error over its strongest factor.
@@ -66,19 +62,16 @@ impl Summary {
         let point =
             |(draw, y): (&Draw, f64)| (draw.value(factor), 100.0 * y, "s0".to_owned(), format!("draw {}", draw.number));
         let points = self.drawn.found(figure).into_iter().take(POINTS).map(point);
+        let title = format!("{} over {}", figure.name(), factor.name());
         let lines = Lines {
-            label: format!("{} over {}", figure.name(), factor.name()),
+            label: title.clone(),
             along: format!("{}, {}", factor.name(), factor.unit()),
             across: "% of rated".to_owned(),
             places: vec![low, high],
             points: points.collect(),
             ..Lines::default()
         };
-        Some(Drawing {
-            title: format!("{} over {}", figure.name(), factor.name()),
-            text: "The factor that matters most to it. A point is a draw.".to_owned(),
-            plots: vec![lines.draw()],
-            ..Drawing::default()
-        })
+        let text = "The factor that matters most to it. A point is a draw.";
+        Some(Drawing::new(title, text, Vec::new(), vec![lines.draw()]))
     }
 }

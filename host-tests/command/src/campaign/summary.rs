@@ -10,7 +10,7 @@ use super::record::Settings;
 use super::statistics::{FEWEST_OF_RANGE, median_range, noise_of_largest, quantile, rank_correlation};
 use crate::machine_file::factor::{Factor, Tolerance};
 use driveline_report::format::{counted, percent, significant};
-use driveline_report::{Fact, Section, Table};
+use driveline_report::{Fact, Section, Table, fact};
 
 /// A figure over the draws.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -149,7 +149,6 @@ impl Summary {
 
     /// The campaign in single figures.
     pub fn facts(&self) -> Vec<Fact> {
-        let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
         let mut facts = vec![fact("variant", self.variant.clone())];
         facts.extend(self.lacks.iter().map(|lacks| fact("margins", lacks.clone())));
         facts.push(fact("draws", self.draws.to_string()));
@@ -161,7 +160,7 @@ impl Summary {
         }
         for (name, (low, high)) in &self.tolerances {
             let unit = Factor::named(name).map_or("", Factor::unit);
-            facts.push(fact(name, format!("{} to {} {unit}", significant(*low), significant(*high))));
+            facts.push(fact(*name, format!("{} to {} {unit}", significant(*low), significant(*high))));
         }
         facts
     }

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use driveline::fault::Faults;
-use driveline_report::chart::{Line, over_time};
+use driveline_report::chart::Line;
 use driveline_report::format::{counted, significant};
-use driveline_report::{Fact, Figure, Key, Section, Sheet, Table};
+use driveline_report::{Figure, Section, Sheet, Table, fact};
 use serde::Serialize;
 
 use super::progress::Progress;
@@ -317,17 +317,11 @@ fn page(summary: &Summary, run: &Run) -> String {
             values: thinned(&column.values),
         };
         let drawn: Vec<Line> = columns.iter().take(DRAWN).enumerate().map(line).collect();
-        Figure {
-            title: title.to_owned(),
-            text: if every > 1 { format!("Every {every}th tick.") } else { String::new() },
-            legend: drawn.iter().map(|line| Key::curve(&*line.name, &*line.class)).collect(),
-            plots: vec![over_time(&times, &drawn, axis, &[])],
-            ..Figure::default()
-        }
+        let text = if every > 1 { format!("Every {every}th tick.") } else { String::new() };
+        Figure::over_time(title, text, &times, &drawn, axis, &[])
     };
     let of = |unit: &str| -> Vec<&Column> { run.drive.iter().filter(|column| column.unit == unit).collect() };
     let machine: Vec<&Column> = run.machine.iter().collect();
-    let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
     Sheet {
         name: format!("{} and {}", summary.drive, summary.machine),
         kicker: "co-simulation".to_owned(),

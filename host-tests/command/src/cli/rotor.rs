@@ -14,7 +14,7 @@ use super::{Failure, Progress, say, say_json};
 use crate::machine_file::{RotorFile, read_rotor, slug};
 use driveline_report::chart::{Curve, Lines};
 use driveline_report::format::{percent, significant};
-use driveline_report::{Fact, Figure, Key, Section, Sheet, Table};
+use driveline_report::{Figure, Key, Section, Sheet, Table, fact};
 use driveline_solver::rotor::{Critical, Natural, Polar, RotorError, WhirlSense};
 use nalgebra::Complex;
 
@@ -270,7 +270,6 @@ fn unstable(found: &Found) -> Option<String> {
 
 /// The page, with the vibration as it is and with the weights.
 fn page(rotor: &RotorFile, found: &Found, responses: &[Response]) -> String {
-    let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
     let length = rotor.places.last().copied().unwrap_or(0.0);
     let discs: f64 = rotor.discs.iter().map(|disc| disc.1).sum();
     let mut facts = vec![
@@ -283,18 +282,11 @@ fn page(rotor: &RotorFile, found: &Found, responses: &[Response]) -> String {
     if let Some(first) = forward {
         facts.push(fact("first forward critical", format!("{:.0} r/min", rpm(first.speed))));
     }
-    let mut figures = vec![Figure {
-        title: "Campbell diagram".to_owned(),
-        text: "Natural frequencies over the speed of rotation. Where the straight line, once a turn, meets a forward \
-            whirl, \
-               unbalance meets it too."
-            .to_owned(),
-        legend: [("forward", "s0"), ("backward", "s1"), ("mixed", "s5"), ("once a turn", "truth")]
-            .map(|(name, class)| Key::curve(name, class))
-            .to_vec(),
-        plots: vec![campbell(found).draw()],
-        ..Figure::default()
-    }];
+    let text = "Natural frequencies over the speed of rotation. Where the straight line, once a turn, meets a forward \
+                whirl, unbalance meets it too.";
+    let legend = [("forward", "s0"), ("backward", "s1"), ("mixed", "s5"), ("once a turn", "truth")];
+    let legend = legend.map(|(name, class)| Key::curve(name, class)).to_vec();
+    let mut figures = vec![Figure::new("Campbell diagram", text, legend, vec![campbell(found).draw()])];
     let vibration = [
         ("Vibration by unbalance", "Displacement at the sensors, steady at each speed."),
         ("Vibration with the weights", "The same with the weights of modal balancing."),
@@ -320,13 +312,7 @@ fn page(rotor: &RotorFile, found: &Found, responses: &[Response]) -> String {
             logarithmic: true,
             ..Lines::default()
         };
-        figures.push(Figure {
-            title: title.to_owned(),
-            text: text.to_owned(),
-            legend,
-            plots: vec![lines.draw()],
-            ..Figure::default()
-        });
+        figures.push(Figure::new(title, text, legend, vec![lines.draw()]));
     }
     let summary = "Natural whirls of the rotor on its bearings, and where its unbalance meets them.".to_owned();
     Sheet {

@@ -11,9 +11,9 @@ use clap::Args;
 use super::results::{Destination, all, check};
 use super::{Failure, Progress, say, say_json};
 use crate::machine_file::{TrainFile, read_train, slug};
-use driveline_report::chart::{Line, over_time};
+use driveline_report::chart::Line;
 use driveline_report::format::significant;
-use driveline_report::{Fact, Figure, Key, Section, Sheet, Table};
+use driveline_report::{Figure, Section, Sheet, Table, fact};
 use result::{Pieces, Simulation};
 
 /// Lines of the events' table.
@@ -224,7 +224,6 @@ fn tables(simulation: &Simulation) -> Vec<Section> {
 }
 
 fn page(file: &TrainFile, simulation: &Simulation) -> String {
-    let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
     let lines = |names: &[String], rows: &[Vec<f64>]| -> Vec<Line> {
         let line = |(index, (name, row)): (usize, (&String, &Vec<f64>))| Line {
             name: name.clone(),
@@ -233,24 +232,17 @@ fn page(file: &TrainFile, simulation: &Simulation) -> String {
         };
         names.iter().zip(rows).take(DRAWN).enumerate().map(line).collect()
     };
-    let text = |count: usize| {
-        if count > DRAWN { format!("The first {DRAWN} of {count}.") } else { String::new() }
-    };
     let marks: Vec<f64> = simulation.events.iter().map(|event| event.time).collect();
-    let figure = |title: &str, count: usize, axis: &str, drawn: Vec<Line>| Figure {
-        title: title.to_owned(),
-        text: text(count),
-        legend: drawn.iter().map(|line| Key::curve(&*line.name, &*line.class)).collect(),
-        plots: vec![over_time(&simulation.times, &drawn, axis, &marks)],
-        ..Figure::default()
+    let figure = |title: &str, names: &[String], axis: &str, rows: &[Vec<f64>]| {
+        let count = names.len();
+        let text = if count > DRAWN { format!("The first {DRAWN} of {count}.") } else { String::new() };
+        Figure::over_time(title, text, &simulation.times, &lines(names, rows), axis, &marks)
     };
     let mut figures = Vec::new();
     if !file.links.is_empty() {
-        let forces = lines(&file.links, &simulation.forces);
-        figures.push(figure("Forces", file.links.len(), "torque, N m (force, N)", forces));
+        figures.push(figure("Forces", &file.links, "torque, N m (force, N)", &simulation.forces));
     }
-    let speeds = lines(&file.coordinates, &simulation.speeds);
-    figures.push(figure("Speeds", file.coordinates.len(), "speed, rad/s (m/s)", speeds));
+    figures.push(figure("Speeds", &file.coordinates, "speed, rad/s (m/s)", &simulation.speeds));
     let mut facts = vec![
         fact("length of the run", format!("{} s", significant(simulation.time))),
         fact("events", simulation.events.len().to_string()),

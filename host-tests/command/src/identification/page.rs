@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use driveline_report::chart::{Curve, Lines};
 use driveline_report::format::{percent, significant};
-use driveline_report::{Fact, Figure, Key, Section, Sheet};
+use driveline_report::{Figure, Key, Section, Sheet, fact};
 
 use super::identify::Identified;
 use super::text::table;
@@ -45,7 +45,6 @@ pub fn page(name: &str, identified: &Identified) -> String {
         [phases(&|line| turned(line.motion / line.torque)), phases(&|line| turned(respond(line.frequency)))],
         false,
     );
-    let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
     Sheet {
         name: name.to_owned(),
         kicker: "Identification".to_owned(),
@@ -55,13 +54,12 @@ pub fn page(name: &str, identified: &Identified) -> String {
             fact("torque left unexplained", percent(estimate.unexplained)),
             fact("condition of the information", significant(estimate.condition)),
         ],
-        figures: vec![Figure {
-            title: "Frequency response".to_owned(),
-            text: "Line by line as measured, and of the fitted machine with its dead time.".to_owned(),
-            legend: vec![Key::curve("measured", "truth"), Key::curve("fitted", "s0")],
-            plots: vec![amplitude, phase],
-            ..Figure::default()
-        }],
+        figures: vec![Figure::new(
+            "Frequency response",
+            "Line by line as measured, and of the fitted machine with its dead time.",
+            vec![Key::curve("measured", "truth"), Key::curve("fitted", "s0")],
+            vec![amplitude, phase],
+        )],
         tables: vec![Section::new("Machine", "Figures with their standard deviations.", table(identified))],
     }
     .page()

@@ -1,7 +1,7 @@
 //! The page of a replay: estimates over measurements.
 
-use driveline_report::chart::{Line, over_time};
-use driveline_report::{Fact, Figure, Key, Section, Sheet};
+use driveline_report::chart::Line;
+use driveline_report::{Fact, Figure, Section, Sheet};
 
 use super::run::Replayed;
 use super::table::table;
@@ -22,13 +22,7 @@ pub fn page(name: &str, machine: &str, facts: Vec<Fact>, replayed: &Replayed) ->
             lines.push(Line { name: "measured".to_owned(), class: "truth".to_owned(), values: cut(measured) });
         }
         lines.push(Line { name: "estimated".to_owned(), class: "s0".to_owned(), values: cut(estimate) });
-        Figure {
-            title: title.to_owned(),
-            text: String::new(),
-            legend: lines.iter().map(|line| Key::curve(&*line.name, &*line.class)).collect(),
-            plots: vec![over_time(&cut(&signals.time), &lines, axis, &[])],
-            ..Figure::default()
-        }
+        Figure::over_time(title, String::new(), &cut(&signals.time), &lines, axis, &[])
     };
     // a twist whose zero is not known is drawn about the estimate's mean
     let mean = |values: &[f64]| values[shown.clone()].iter().sum::<f64>() / shown.len().max(1) as f64;

@@ -574,8 +574,7 @@ fn a_decimal_comma_is_read_where_no_comma_separates() {
     for (text, words) in [
         (
             format!("{whole}0,000;1,5;2\n0,001;1.5;2\n"),
-            "log.csv:3:7: `torque_Nm`: found `1.5`, expected a finite \
-                                                        number with a decimal comma, as those before it",
+            "log.csv:3:7: `torque_Nm`: found `1.5`, expected a finite number with a decimal comma, as those before it",
         ),
         (format!("{whole}0.000;1.5;1,024\n"), "found `1,024`, expected a finite number with a decimal point"),
         (format!("{whole}0;1.024,5;2\n"), "found `1.024,5`, expected a finite number, without a separator"),

@@ -11,7 +11,7 @@ use super::weight::{Hole, Polar, arrows_of, fill, told};
 use crate::machine_file::balance::BalanceFile;
 use driveline_report::chart::polar;
 use driveline_report::format::{percent, significant};
-use driveline_report::{Arrangement, Fact, Figure, Key, Section, Sheet, Table};
+use driveline_report::{Arrangement, Fact, Figure, Key, Section, Sheet, Table, fact};
 
 /// Result.
 #[derive(Clone, Debug, Serialize)]
@@ -90,17 +90,15 @@ impl Outcome {
 
     fn facts(&self) -> Vec<Fact> {
         let unit = &self.unit;
-        let mut facts = vec![Fact { name: "baseline".into(), value: format!("{} {unit}", significant(self.baseline)) }];
+        let mut facts = vec![fact("baseline", format!("{} {unit}", significant(self.baseline)))];
         for (index, answer) in self.answers.iter().enumerate() {
             let which = if self.answers.len() > 1 { format!("answer {}: ", index + 1) } else { String::new() };
-            let predicted = format!("{} {unit}", significant(answer.predicted));
-            facts.push(Fact { name: format!("{which}predicted"), value: predicted });
+            facts.push(fact(format!("{which}predicted"), format!("{} {unit}", significant(answer.predicted))));
             if answer.holes.is_some() {
-                facts.push(Fact { name: format!("{which}holes"), value: told(answer.holes.as_deref()) });
+                facts.push(fact(format!("{which}holes"), told(answer.holes.as_deref())));
             }
-            for fact in answer.grade.iter().flat_map(Grade::facts) {
-                facts.push(Fact { name: format!("{which}{}", fact.name), value: fact.value });
-            }
+            let grade = answer.grade.iter().flat_map(Grade::facts);
+            facts.extend(grade.map(|Fact { name, value }| fact(format!("{which}{name}"), value)));
         }
         facts
     }

@@ -4,8 +4,8 @@ use driveline::balancing::{BalanceTolerance, Complex, Error, RigidUnbalance, deg
 use serde::Serialize;
 
 use crate::machine_file::balance::{Along, BalanceFile};
-use driveline_report::Fact;
 use driveline_report::format::{significant, turned};
+use driveline_report::{Fact, fact};
 
 /// The grade before and after.
 #[derive(Clone, Debug, Serialize)]
@@ -125,7 +125,6 @@ fn bearings(
 impl Grade {
     /// Its text.
     pub fn facts(&self) -> Vec<Fact> {
-        let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
         let unbalance = |g_mm: f64, grade: f64| format!("{} g mm, G {}", significant(g_mm), significant(grade));
         let verdict = |passed: bool| if passed { "predicted within it" } else { "predicted above it" };
         let whole = if self.bearings.is_some() { "split between the bearings" } else { verdict(self.passed) };
@@ -142,7 +141,7 @@ impl Grade {
                 significant(bearing.permissible_g_mm),
                 verdict(bearing.passed)
             );
-            facts.push(fact(&format!("at bearing {name}"), value));
+            facts.push(fact(format!("at bearing {name}"), value));
         }
         if let Some(Parts { static_g_mm, static_degrees, couple_g_mm2, couple_degrees }) = self.parts {
             facts.push(fact("static unbalance now", angled(static_g_mm, "g mm", static_degrees)));

@@ -17,7 +17,7 @@ use crate::machine_file::{parse, text};
 use driveline_closed_loop::departure::Departure;
 use driveline_report::chart::{Curve, Lines};
 use driveline_report::format::{percent, significant};
-use driveline_report::{Fact, Figure as Drawing, Section, Sheet, Table};
+use driveline_report::{Figure as Drawing, Section, Sheet, Table, fact};
 
 /// Most keys.
 const MOST_KEYS: usize = 3;
@@ -227,18 +227,13 @@ impl Found {
                 logarithmic: true,
                 ..Lines::default()
             };
-            Drawing {
-                title: tuned.key.clone(),
-                text: "The best of all points with this value.".to_owned(),
-                plots: vec![lines.draw()],
-                ..Drawing::default()
-            }
+            Drawing::new(&tuned.key, "The best of all points with this value.", Vec::new(), vec![lines.draw()])
         };
         Sheet {
             name: name.to_owned(),
             kicker: "values that make a figure least".to_owned(),
             summary: format!("Least: {}, of {} of the drawn machines.", self.least.join(", "), percent(self.share)),
-            facts: vec![Fact { name: "draws".to_owned(), value: self.draws.to_string() }],
+            facts: vec![fact("draws", self.draws.to_string())],
             figures: self.keys.iter().enumerate().map(drawing).collect(),
             tables: self.sections(),
         }

@@ -2,7 +2,7 @@
 
 use driveline_report::chart::{Band, Curve as Drawing, Lines, Locus, nyquist};
 use driveline_report::format::{rate, significant};
-use driveline_report::{Fact, Figure, Key, Section, Sheet, Table};
+use driveline_report::{Figure, Key, Section, Sheet, Table, fact};
 
 use super::responses::{Curve, One, Range, Responses, Step, Steps};
 use crate::cli::Plan;
@@ -13,7 +13,6 @@ const LINEAR: &str = "It is linear: gaps are closed, gears as drawn have no loss
 
 /// The page as HTML; without a speed loop, tables alone.
 pub fn page(plan: &Plan, responses: Option<&Responses>) -> String {
-    let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
     let mut facts = vec![fact("observer", plan.observer.to_owned()), fact("rate", rate(plan.rate_hz))];
     if let Some(governor) = &plan.speed_loop {
         facts.push(fact("observer in the loop", governor.observer.to_owned()));
@@ -54,13 +53,6 @@ fn machines(responses: &Responses) -> Vec<Key> {
 
 fn figures(responses: &Responses) -> Vec<Figure> {
     let Responses { nominal, drawn, observer, .. } = responses;
-    let named = |title: &str, text: &str, legend: Vec<Key>, plots: Vec<String>| Figure {
-        title: title.to_owned(),
-        text: text.to_owned(),
-        legend,
-        plots,
-        ..Figure::default()
-    };
     let locus = |class: &str, one: &One| Locus {
         class: class.to_owned(),
         real: one.real.clone(),
@@ -70,33 +62,33 @@ fn figures(responses: &Responses) -> Vec<Figure> {
     let both = machines(responses);
     let estimates = vec![Key::curve("estimate", "s0"), Key::curve("two masses, without sampling", "s1")];
     let mut figures = vec![
-        named(
+        Figure::new(
             "The loop",
             "Its response where it is cut, up to half the rate. The band holds the corners of the tolerances, with two \
              masses; marks are where the nominal gain passes 1.",
             both.clone(),
             bode(responses, [&nominal.open, &drawn.open], Some(&responses.open_within), None),
         ),
-        named(
+        Figure::new(
             "The loop in the complex plane",
             "Each circle is the largest about -1 that its response stays out of: its radius is the distance. The \
              dashed circle has the gain 1.",
             both.clone(),
             vec![nyquist(&[locus("s0", nominal), locus("s1", drawn)])],
         ),
-        named(
+        Figure::new(
             "The machine",
             "Motor speed per motor torque, in continuous time.",
             both.clone(),
             bode(responses, [&nominal.plant, &drawn.plant], Some(&responses.plant_within), Some("rad/s per N m")),
         ),
-        named(
+        Figure::new(
             "The observer: load speed",
             "Estimated load speed per measured motor speed, without a torque of the motor.",
             estimates.clone(),
             bode(responses, [&observer.load_speed, &observer.load_speed_of_two_masses], None, Some("rad/s per rad/s")),
         ),
-        named(
+        Figure::new(
             "The observer: shaft torque",
             "Estimated shaft torque per measured motor speed, without a torque of the motor.",
             estimates,
@@ -116,7 +108,7 @@ fn figures(responses: &Responses) -> Vec<Figure> {
     ] {
         let plots = steps(responses, of);
         if !plots.is_empty() {
-            figures.push(named(title, text, both.clone(), plots));
+            figures.push(Figure::new(title, text, both.clone(), plots));
         }
     }
     figures

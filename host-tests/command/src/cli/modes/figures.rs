@@ -20,19 +20,13 @@ pub fn shapes<'m>(
     let plots: Vec<String> = modes.take(DRAWN).enumerate().map(drawn).collect();
     let text = "How far each mass turns, referred to the motor and scaled to one; a line is a shaft or a mesh. The \
         area of a disc is the mass's share of the inertia.";
-    (!plots.is_empty()).then(|| Figure {
-        title: "Natural vibrations".to_owned(),
-        text: text.to_owned(),
-        plots,
-        arrangement: Arrangement::Beside,
-        ..Figure::default()
-    })
+    let beside = |figure| Figure { arrangement: Arrangement::Beside, ..figure };
+    (!plots.is_empty()).then(|| beside(Figure::new("Natural vibrations", text, Vec::new(), plots)))
 }
 
 /// The Campbell diagram.
 pub fn campbell(diagram: String) -> Figure {
     let text = "Natural frequencies (level), and excitation orders (rising) over the motor's speed. The band is the \
-        running range; a \
-        crossing in it or within 10 % of it is marked in red.";
-    Figure { title: "Campbell diagram".to_owned(), text: text.to_owned(), plots: vec![diagram], ..Figure::default() }
+        running range; a crossing in it or within 10 % of it is marked in red.";
+    Figure::new("Campbell diagram", text, Vec::new(), vec![diagram])
 }

@@ -13,7 +13,7 @@ use super::tables::tables;
 use crate::machine_file::MachineFile;
 use driveline_report::chart::{Curve, Lines, Station};
 use driveline_report::format::significant;
-use driveline_report::{Fact, Figure, Key, Sheet};
+use driveline_report::{Figure, Key, Sheet, fact};
 
 /// Points of a response.
 const POINTS: usize = 1_600;
@@ -25,7 +25,6 @@ const DRAWN_DAMPING: f64 = 1e-3;
 pub fn page(machine: &MachineFile, vibration: &Vibration) -> String {
     let total: f64 = vibration.masses.iter().map(|mass| mass.inertia).sum();
     let station = |mass: &super::chain::Mass| Station { name: mass.name.clone(), share: mass.inertia / total };
-    let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
     let mut facts = vec![
         fact("inertia at the motor", format!("{} kg m²", significant(total))),
         fact("masses", vibration.masses.len().to_string()),
@@ -40,27 +39,20 @@ pub fn page(machine: &MachineFile, vibration: &Vibration) -> String {
     let frequency = frequencies(vibration);
     let stations: Vec<Station> = vibration.masses.iter().map(station).collect();
     let (legend, curves) = responses(machine, vibration, &frequency);
-    let felt = (!curves.is_empty()).then(|| Figure {
-        title: "What the motor feels".to_owned(),
-        text: "Motor speed per motor torque: the whole chain, and the two masses that stand for it. Peaks are \
-            resonances, \
-               troughs antiresonances."
-            .to_owned(),
-        legend,
-        plots: vec![
-            Lines {
-                label: "Motor speed per motor torque over frequency".to_owned(),
-                along: "frequency, Hz".to_owned(),
-                across: "motor speed per torque, rad/s per N m".to_owned(),
-                places: frequency.clone(),
-                curves,
-                logarithmic: true,
-                decades: true,
-                ..Lines::default()
-            }
-            .draw(),
-        ],
-        ..Figure::default()
+    let felt = (!curves.is_empty()).then(|| {
+        let text = "Motor speed per motor torque: the whole chain, and the two masses that stand for it. Peaks are \
+                    resonances, troughs antiresonances.";
+        let lines = Lines {
+            label: "Motor speed per motor torque over frequency".to_owned(),
+            along: "frequency, Hz".to_owned(),
+            across: "motor speed per torque, rad/s per N m".to_owned(),
+            places: frequency.clone(),
+            curves,
+            logarithmic: true,
+            decades: true,
+            ..Lines::default()
+        };
+        Figure::new("What the motor feels", text, legend, vec![lines.draw()])
     });
     let natural: Vec<f64> = vibration.resonances.iter().map(|mode| mode.hz).collect();
     let diagram = diagram(&natural, machine.running.as_ref(), &machine.excitations, &vibration.critical);

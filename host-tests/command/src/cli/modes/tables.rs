@@ -90,9 +90,8 @@ fn reductions(reductions: &[Reduction]) -> Option<Section> {
         table.row([r.by.clone(), r.mode.to_string()].into_iter().chain(sizes).chain(errors).chain(rest));
     }
     let text = "The mode that each stands for, with the errors of its resonance, of its antiresonance and of the \
-                static compliance at the motor; the lowest mode \
-                left out and its share at the motor (1 equals the rigid-body mode); a bound of the error of the \
-                motor's speed after an impact, over its first step.";
+                static compliance at the motor; the lowest mode left out and its share at the motor (1 equals the \
+                rigid-body mode); a bound of the error of the motor's speed after an impact, over its first step.";
     (!reductions.is_empty()).then(|| Section::new("Reduction to two masses", text, table))
 }
 

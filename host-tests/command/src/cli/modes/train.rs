@@ -12,7 +12,7 @@ use crate::cli::Failure;
 use crate::machine_file::TrainFile;
 use driveline_report::chart::Station;
 use driveline_report::format::significant;
-use driveline_report::{Fact, Section, Sheet, Table};
+use driveline_report::{Section, Sheet, Table, fact};
 
 /// The vibrations of a train, every part on its own shaft.
 #[derive(Clone, Debug, Serialize)]
@@ -95,7 +95,6 @@ impl TrainVibration {
 
     /// The page as HTML.
     pub fn page(&self, file: &TrainFile) -> String {
-        let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
         let inertia = file.train.inertias();
         let total: f64 = inertia.iter().sum();
         let stations = self.coordinates.iter().zip(&inertia);

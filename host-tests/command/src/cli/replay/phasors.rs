@@ -7,7 +7,7 @@ use clap::Args;
 use driveline::settings::PhasorSettings;
 use driveline_report::chart::{Arrow, polar};
 use driveline_report::format::{counted, significant};
-use driveline_report::{Fact, Figure, Section, Sheet, Table};
+use driveline_report::{Figure, Section, Sheet, Table, fact};
 use serde_json::{Value, json};
 
 use super::super::Failure;
@@ -106,7 +106,7 @@ impl PhasorOptions {
         if taken.len() > PRINTED {
             let _ = write!(text, "; the last {PRINTED} of {} readings", taken.len());
         }
-        let facts = vec![Fact { name: "readings".to_owned(), value: taken.len().to_string() }];
+        let facts = vec![fact("readings", taken.len().to_string())];
         Ok(Shown {
             text,
             json: json!({
@@ -190,10 +190,6 @@ fn arrows(taken: &[Taken]) -> Vec<Figure> {
     if arrows.is_empty() {
         return Vec::new();
     }
-    vec![Figure {
-        title: "Phasors".to_owned(),
-        text: "The readings that are to be used, by how far the vibration leads the rotor's zero.".to_owned(),
-        plots: vec![polar("vibration", "", "phase leads", &arrows)],
-        ..Figure::default()
-    }]
+    let text = "The readings that are to be used, by how far the vibration leads the rotor's zero.";
+    vec![Figure::new("Phasors", text, Vec::new(), vec![polar("vibration", "", "phase leads", &arrows)])]
 }

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use clap::Args;
-use driveline_report::Fact;
+use driveline_report::fact;
 use driveline_report::format::{counted, significant};
 use serde_json::json;
 
@@ -73,7 +73,7 @@ impl WheelOptions {
         if turned.windows.is_empty() {
             let _ = write!(text, "; no cycle: {}", why_none(&turned, windows, &times));
         }
-        let fact = Fact { name: "synchronised at".to_owned(), value: known };
+        let fact = fact("synchronised at", known);
         Ok(Shown {
             text,
             json: json!({

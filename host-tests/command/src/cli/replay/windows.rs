@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use clap::Args;
 use driveline::fluctuation::{Order, Ripple};
-use driveline_report::chart::{Curve, Lines};
+use driveline_report::chart::{Curve, Line, Lines, over_time};
 use driveline_report::format::{percent, significant};
 use driveline_report::{Fact, Figure, Section, Sheet, Table};
 use serde_json::{Value, json};
@@ -163,20 +163,10 @@ pub fn sheet(windows: &[Windowed], file: &str, kicker: &str, facts: Vec<Fact>) -
     let of = |value: fn(&Ripple) -> f64| -> Vec<f64> {
         windows.iter().map(|window| window.ripple.as_ref().map_or(f64::NAN, value)).collect()
     };
-    let over_time = |title: &str, across: &str, values: Vec<f64>| Figure {
-        title: title.to_owned(),
-        plots: vec![
-            Lines {
-                label: format!("{across} over time"),
-                along: "time, s".to_owned(),
-                across: across.to_owned(),
-                places: windows.iter().map(|window| window.until).collect(),
-                curves: vec![Curve { class: "s0".to_owned(), values }],
-                ..Lines::default()
-            }
-            .draw(),
-        ],
-        ..Figure::default()
+    let times: Vec<f64> = windows.iter().map(|window| window.until).collect();
+    let over_time = |title: &str, across: &str, values: Vec<f64>| {
+        let line = Line { name: String::new(), class: "s0".to_owned(), values };
+        Figure::new(title, "", Vec::new(), vec![over_time(&times, &[line], across, &[])])
     };
     let mut figures = Vec::new();
     if windows.len() > 1 {
@@ -187,22 +177,16 @@ pub fn sheet(windows: &[Windowed], file: &str, kicker: &str, facts: Vec<Fact>) -
     if let Some(ripple) = usable {
         let place = |point: usize| point as f64 / (POINTS - 1) as f64;
         let values = (0..POINTS).map(|point| 60.0 / TAU * ripple.speed.at(TAU * place(point))).collect();
-        figures.push(Figure {
-            title: "The cycle".to_owned(),
-            text: "Of the last window that is to be used, by its orders.".to_owned(),
-            plots: vec![
-                Lines {
-                    label: "speed over the cycle".to_owned(),
-                    along: "cycle".to_owned(),
-                    across: "speed, r/min".to_owned(),
-                    places: (0..POINTS).map(place).collect(),
-                    curves: vec![Curve { class: "s0".to_owned(), values }],
-                    ..Lines::default()
-                }
-                .draw(),
-            ],
-            ..Figure::default()
-        });
+        let lines = Lines {
+            label: "speed over the cycle".to_owned(),
+            along: "cycle".to_owned(),
+            across: "speed, r/min".to_owned(),
+            places: (0..POINTS).map(place).collect(),
+            curves: vec![Curve { class: "s0".to_owned(), values }],
+            ..Lines::default()
+        };
+        let text = "Of the last window that is to be used, by its orders.";
+        figures.push(Figure::new("The cycle", text, Vec::new(), vec![lines.draw()]));
     }
     Sheet {
         name: file.to_owned(),

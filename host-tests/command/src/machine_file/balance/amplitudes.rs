@@ -56,9 +56,8 @@ pub(super) fn amplitudes(root: &mut Table<'_>, file: &BalanceFile) -> Result<Mea
         Error::NoEffect { .. } => table.wrong("runs", format!("other amplitudes than the baseline's ({refusal})")),
         _ => table.wrong(
             "runs",
-            "runs at different angles, not on one line through the shaft, with amplitudes consistent \
-             with one influence; \
-             repeat them, or take a larger trial weight",
+            "runs at different angles, not on one line through the shaft, with amplitudes consistent with one \
+             influence; repeat them, or take a larger trial weight",
         ),
     })?;
     table.finish()?;

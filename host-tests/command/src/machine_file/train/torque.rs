@@ -10,10 +10,9 @@ use crate::machine_file::diagnostic::Diagnostic;
 use crate::machine_file::quantity::Quantity;
 use crate::machine_file::table::Table;
 
-const KINDS: &str = "\"constant\", \"line\", \"parabola\", \"kloss\", \"shunt\", \"series\", \
-                     \"combustion\", \"starting\", \"steps\", \"table\", \"triangle\", \"square\", \
-                     \"sawtooth\", \"sawtooth up\", \"sawtooth down\", \"pulses\", \"rectified\", \"arc\", \
-                     \"stroke\" or \"orders\"";
+const KINDS: &str = "\"constant\", \"line\", \"parabola\", \"kloss\", \"shunt\", \"series\", \"combustion\", \
+                     \"starting\", \"steps\", \"table\", \"triangle\", \"square\", \"sawtooth\", \"sawtooth up\", \
+                     \"sawtooth down\", \"pulses\", \"rectified\", \"arc\", \"stroke\" or \"orders\"";
 
 const ENGINES: &str = "\"spark\", \"indirect injection\" or \"direct injection\"";
 
