@@ -12,7 +12,7 @@ use driveline_report::{Figure, Section, Sheet, Table, fact};
 use serde::Serialize;
 
 use super::progress::Progress;
-use super::results::{Destination, all, check};
+use super::results::{Destination, all, check, field};
 use super::{Failure, export, say, say_json};
 use crate::cosim::closed_loop::{Change, Column, Names, Plan, Run, Stopped};
 use crate::cosim::fmu::Fmu;
@@ -292,7 +292,7 @@ impl Cosim {
 /// The run, a line for every tick, each number with all its digits.
 fn table(run: &Run) -> String {
     let of = |whose: &str, columns: &[Column]| -> String {
-        columns.iter().map(|column| format!(",{}", quoted(&format!("{whose}.{}", column.name)))).collect()
+        columns.iter().map(|column| format!(",{}", field(&format!("{whose}.{}", column.name)))).collect()
     };
     let mut text = format!("time{}{},faults\n", of("drive", &run.drive), of("machine", &run.machine));
     for (tick, time) in run.times.iter().enumerate() {
@@ -300,10 +300,6 @@ fn table(run: &Run) -> String {
         text += &format!("{time:?}{},{}\n", values.collect::<String>(), run.faults[tick]);
     }
     text
-}
-
-fn quoted(name: &str) -> String {
-    if name.contains([',', '"']) { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.to_owned() }
 }
 
 fn page(summary: &Summary, run: &Run) -> String {

@@ -235,6 +235,11 @@ fn behind_links(path: &Path) -> PathBuf {
     path
 }
 
+/// A field of a CSV, in quotes where it has to be [RFC 4180].
+pub fn field(text: &str) -> String {
+    if text.contains([',', '"', '\r', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}
+
 /// The system's words without the path of the file beside, which means nothing to the user.
 fn reason(error: &io::Error) -> String {
     let text = error.to_string();

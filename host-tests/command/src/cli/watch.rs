@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, Read, Write};
+use std::mem;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
@@ -10,7 +11,7 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use driveline_firmware::board::BOARDS;
 
-use super::results::{Destination, check};
+use super::results::{Destination, check, field};
 use super::setup::ready;
 use super::{Failure, say, say_json};
 use crate::machine_file::printable;
@@ -150,10 +151,12 @@ impl Watch {
         let table = self.csv.as_deref().map(|path| Destination::chosen("table", path));
         check(&sources, &table)?;
         let mut source = self.open()?;
-        let mut live = self.web.map(|port| self.live(port)).transpose()?;
+        let live = self.web.map(|port| self.live(port)).transpose()?;
         let mut csv = table.map(Csv::new);
         let mut seen = Seen::default();
         let mut decoder = Decoder::default();
+        // records before the channels' descriptions wait for names and units
+        let mut waiting: Vec<Told> = Vec::new();
         let (mut drawn, mut said, mut lines) = (Instant::now(), Instant::now(), 0);
         let in_terminal = io::stderr().is_terminal() && !self.json;
         let mut bytes = vec![0; 65_536];
@@ -168,23 +171,21 @@ impl Watch {
             decoder.take(&bytes[..length], |decoder, told| {
                 if self.records.is_none_or(|most| seen.records < most) {
                     seen.add(decoder, &told);
-                    if let Some(live) = &mut live {
-                        live.waiting.push(told.clone());
-                    }
-                    if let Some(csv) = &mut csv {
-                        csv.waiting.push(told);
-                    }
+                    waiting.push(told);
                 }
             });
             (seen.damaged, seen.unknown) = (decoder.damaged, decoder.unknown);
             let is_none = decoder.bytes >= NO_TELEMETRY && decoder.is_empty() && seen.records == 0;
             let ended = length == 0 || is_none || self.records.is_some_and(|most| seen.records >= most);
-            if let Some(live) = &mut live {
-                live.show(&decoder, &seen, ended);
+            let described = waiting.first().is_some_and(|told| decoder.describes(told.words.len()));
+            let is_ripe = described || ended || waiting.len() >= PATIENCE;
+            let ripe = if is_ripe { mem::take(&mut waiting) } else { Vec::new() };
+            if let Some(live) = &live {
+                live.show(&decoder, &seen, &ripe, ended);
             }
             let due = ended || drawn.elapsed() >= DRAWN;
             // a full disk ends the file and, unless there is a scope, the watch; what was seen is printed
-            if let Err(failure) = csv.as_mut().map_or(Ok(()), |csv| csv.write(&decoder, ended, due)) {
+            if let Err(failure) = csv.as_mut().map_or(Ok(()), |csv| csv.write(&decoder, &ripe, due)) {
                 if live.is_some() {
                     let _ = writeln!(io::stderr(), "{failure}");
                 }
@@ -245,7 +246,7 @@ impl Watch {
         let address = serve(&scope, port).map_err(|error| Failure::failed(format!("port {port}: {error}")))?;
         // a closed stream is no reason to stop
         let _ = writeln!(io::stderr(), "the scope is at http://{address}/ until Ctrl-C");
-        Ok(Live { scope, waiting: Vec::new() })
+        Ok(Live(scope))
     }
 
     fn open(&self) -> Result<Box<dyn Read>, Failure> {
@@ -279,21 +280,16 @@ impl Watch {
 }
 
 /// The scope that is served.
-struct Live {
-    scope: Arc<Mutex<Scope>>,
-    /// Records before the channels' descriptions wait for their units.
-    waiting: Vec<Told>,
-}
+struct Live(Arc<Mutex<Scope>>);
 
 impl Live {
     /// Shows what has come.
-    fn show(&mut self, decoder: &Decoder, seen: &Seen, ended: bool) {
-        let described = self.waiting.first().is_some_and(|told| decoder.describes(told.words.len()));
-        let mut scope = self.scope.lock().unwrap_or_else(PoisonError::into_inner);
+    fn show(&self, decoder: &Decoder, seen: &Seen, ripe: &[Told], ended: bool) {
+        let mut scope = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         (scope.records, scope.dropped, scope.damaged) = (seen.records, seen.dropped, decoder.damaged);
-        if described || ended || self.waiting.len() >= PATIENCE {
+        if ended || !ripe.is_empty() {
             scope.channels = (0..seen.channels.len()).map(|index| decoder.channel(index)).collect();
-            for told in self.waiting.drain(..) {
+            for told in ripe {
                 let values = told.words.iter().enumerate().map(|(index, &word)| decoder.value(index, word) as f32);
                 scope.store.push(told.tick, &values.collect::<Vec<f32>>());
             }
@@ -304,7 +300,7 @@ impl Live {
     fn stay(&self, broken: Option<&io::Error>) -> ! {
         let why = broken.map_or_else(|| "no more records came".to_owned(), ToString::to_string);
         let _ = writeln!(io::stderr(), "{why}; the scope stays until Ctrl-C");
-        self.scope.lock().unwrap_or_else(PoisonError::into_inner).ended = Some(why);
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).ended = Some(why);
         loop {
             thread::park();
         }
@@ -328,36 +324,30 @@ struct Csv {
     table: Destination,
     /// Begun with the first record: until it is written, what is there stays.
     file: Option<BufWriter<File>>,
-    /// Records before the channels' descriptions wait for their column names.
-    waiting: Vec<Told>,
     /// Values of a line, once there is one.
     columns: Option<usize>,
 }
 
 impl Csv {
     fn new(table: Destination) -> Self {
-        Csv { table, file: None, waiting: Vec::new(), columns: None }
+        Csv { table, file: None, columns: None }
     }
 
-    /// Writes what has its columns' names, or all of it where no more comes.
-    fn write(&mut self, decoder: &Decoder, ended: bool, flush: bool) -> Result<(), Failure> {
-        self.put(decoder, ended, flush).map_err(|error| self.table.unwritable(&error))
+    fn write(&mut self, decoder: &Decoder, ripe: &[Told], flush: bool) -> Result<(), Failure> {
+        self.put(decoder, ripe, flush).map_err(|error| self.table.unwritable(&error))
     }
 
-    fn put(&mut self, decoder: &Decoder, ended: bool, flush: bool) -> io::Result<()> {
-        let described = self.waiting.first().is_some_and(|told| decoder.describes(told.words.len()));
-        if (described || ended || self.waiting.len() >= PATIENCE) && !self.waiting.is_empty() {
-            for told in self.waiting.drain(..) {
-                let mut text = format!("{}\n", line(decoder, &told));
-                // a drive whose telemetry changes gets a head of its own
-                if self.columns != Some(told.words.len()) {
-                    self.columns = Some(told.words.len());
-                    text.insert_str(0, &format!("{}\n", header(decoder, &told)));
-                }
-                match &mut self.file {
-                    Some(file) => file.write_all(text.as_bytes())?,
-                    none => *none = Some(BufWriter::new(self.table.begin(text.as_bytes())?)),
-                }
+    fn put(&mut self, decoder: &Decoder, ripe: &[Told], flush: bool) -> io::Result<()> {
+        for told in ripe {
+            let mut text = format!("{}\n", line(decoder, told));
+            // a drive whose telemetry changes gets a head of its own
+            if self.columns != Some(told.words.len()) {
+                self.columns = Some(told.words.len());
+                text.insert_str(0, &format!("{}\n", header(decoder, told)));
+            }
+            match &mut self.file {
+                Some(file) => file.write_all(text.as_bytes())?,
+                none => *none = Some(BufWriter::new(self.table.begin(text.as_bytes())?)),
             }
         }
         self.file.as_mut().filter(|_| flush).map_or(Ok(()), BufWriter::flush)
@@ -372,11 +362,6 @@ fn header(decoder: &Decoder, told: &Told) -> String {
         text.push_str(&field(&decoder.channel(index).heading()));
     }
     text
-}
-
-/// A field of a CSV, in quotes where it has to be [RFC 4180].
-fn field(text: &str) -> String {
-    if text.contains([',', '"', '\r', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
 fn line(decoder: &Decoder, told: &Told) -> String {
