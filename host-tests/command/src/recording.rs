@@ -6,5 +6,5 @@ mod decimal;
 mod read;
 
 pub use angle::unwrapped;
-pub use column::{Column, Quantity, Scales};
+pub use column::{Column, Quantity};
 pub use read::{Asked, Recording, parse, read_recording};

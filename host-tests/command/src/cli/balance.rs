@@ -16,7 +16,7 @@ use super::Failure;
 use crate::machine_file::balance::{AngleConvention, BalanceFile, Measured, PLANES, ROWS};
 use driveline_report::chart::polar;
 use driveline_report::format::{percent, significant, turned};
-use driveline_report::{Arrangement, Fact, Figure, Key, Section, Sheet, Table};
+use driveline_report::{Arrangement, Fact, Figure, Key, Section, Sheet, Table, fact};
 
 #[cfg(not(target_family = "wasm"))]
 pub use command::Balance;
@@ -258,12 +258,11 @@ fn summary(outcome: &Outcome) -> String {
 }
 
 fn facts(outcome: &Outcome) -> Vec<Fact> {
-    let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
     let mut facts = vec![fact("condition of the planes", significant(outcome.condition))];
     let slight = |plane: &Plane| plane.change_by_trial.filter(|change| *change < SLIGHT);
     facts.extend(outcome.planes.iter().filter_map(|plane| {
         let text = format!("changes the readings by {} only: take a heavier one to be sure", percent(slight(plane)?));
-        Some(fact(&format!("trial weight of {}", plane.plane), text))
+        Some(fact(format!("trial weight of {}", plane.plane), text))
     }));
     facts.extend(outcome.missed.map(|[found, expected]| {
         let text = format!(

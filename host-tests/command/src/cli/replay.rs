@@ -27,7 +27,7 @@ use crate::machine_file::{MachineFile, printable, read};
 use crate::recording::{Asked, Recording, read_recording};
 use crate::replay::wheel::Followed;
 use crate::replay::{Between, Design, Replayed, Signals, csv, page, replay, summaries, table};
-use driveline_report::Fact;
+use driveline_report::fact;
 use driveline_report::format::significant;
 
 /// Replay a recording through the library: a machine's observer, the speed's fluctuation, a toothed wheel, or phasors.
@@ -217,7 +217,6 @@ impl Replay {
             }
         }
         let table = destination.map_or(Ok(()), |table| table.write_and_say(&csv(&replayed), self.json));
-        let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
         let mut facts = vec![
             fact("samples", recording.len().to_string()),
             fact("samples a second", significant(1.0 / recording.period)),

@@ -195,13 +195,6 @@ impl Quantity {
     }
 }
 
-/// What units need beside their names.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Scales {
-    /// Counts on a turn of the encoder.
-    pub counts: Option<f64>,
-}
-
 /// A column that was understood.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
@@ -225,35 +218,20 @@ pub enum Unusable {
 }
 
 impl Column {
-    /// A column by its heading.
-    pub fn of_heading(index: usize, heading: &str, scales: Scales) -> Result<Self, Unusable> {
-        let (name, unit) = parted(heading);
-        let lower = name.to_lowercase();
-        let words: Vec<&str> = lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
-        let quantity = Quantity::of_words(&words).ok_or(Unusable::Unknown)?;
-        Self::of(index, heading, quantity, unit.as_deref(), scales)
-    }
-
-    /// A column that the user names: its quantity, in the unit that the user gives, or else its heading.
-    pub fn named(
-        index: usize,
-        heading: &str,
-        quantity: Quantity,
-        unit: Option<&str>,
-        scales: Scales,
-    ) -> Result<Self, Unusable> {
-        let own = parted(heading).1;
-        Self::of(index, heading, quantity, unit.or(own.as_deref()), scales)
-    }
-
-    /// A column of a quantity and a unit.
+    /// A column by its heading, or by what the user says of it: its quantity, and its unit if it is another than the
+    /// heading's. `counts` are those on a turn of the encoder.
     pub fn of(
         index: usize,
         heading: &str,
-        quantity: Quantity,
-        unit: Option<&str>,
-        scales: Scales,
+        said: Option<(Quantity, Option<&str>)>,
+        counts: Option<f64>,
     ) -> Result<Self, Unusable> {
+        let (name, own) = parted(heading);
+        let lower = name.to_lowercase();
+        let words = lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+        let by_name = || Some((Quantity::of_words(&words.collect::<Vec<_>>())?, None));
+        let (quantity, unit) = said.or_else(by_name).ok_or(Unusable::Unknown)?;
+        let unit = unit.or(own.as_deref());
         let units = quantity.units();
         let names = || units.iter().map(|(name, _)| format!("`{name}`")).collect::<Vec<_>>().join(", ");
         let fault = |found: String| {
@@ -277,17 +255,13 @@ impl Column {
             },
         };
         let counted = factor.is_nan() && quantity != Quantity::Magnitude;
-        let factor = match (factor.is_nan(), quantity) {
-            (false, _) => Some(factor),
-            (true, Quantity::Magnitude) => None,
-            (true, _) => Some(
-                TAU / scales.counts.ok_or_else(|| {
-                    Unusable::Fault(
-                        format!("counts in the heading `{heading}`"),
-                        "--counts, those on a turn".to_owned(),
-                    )
-                })?,
-            ),
+        let factor = match counts {
+            _ if !counted => Some(factor).filter(|factor| !factor.is_nan()),
+            Some(counts) => Some(TAU / counts),
+            None => {
+                let found = format!("counts in the heading `{heading}`");
+                return Err(Unusable::Fault(found, "--counts, those on a turn".to_owned()));
+            }
         };
         Ok(Self { index, heading: heading.to_owned(), quantity, factor, counted })
     }

@@ -5,7 +5,7 @@ use std::io::Read;
 use std::path::Path;
 
 use super::angle::counted;
-use super::column::{Column, Quantity, Scales, Unusable};
+use super::column::{Column, Quantity, Unusable};
 use super::decimal::{self, Commas, number};
 use crate::machine_file::{Diagnostic, Source, printable};
 
@@ -363,7 +363,6 @@ fn columns(
     asked: &Asked,
     delimiter: char,
 ) -> Result<(Vec<Column>, Vec<String>), Diagnostic> {
-    let scales = Scales { counts: asked.counts };
     let place = |index: usize| row(source, headings.position(), index, delimiter);
     let (mut columns, mut unused): (Vec<Column>, Vec<String>) = (Vec::new(), Vec::new());
     let is_twice = |heading: &str| headings.iter().filter(|other| *other == heading).count() > 1;
@@ -390,11 +389,8 @@ fn columns(
         named.push((index, quantity, unit));
     }
     for (index, heading) in headings.iter().enumerate() {
-        let found = match named.iter().find(|(named, ..)| *named == index) {
-            Some((_, quantity, unit)) => Column::named(index, heading, *quantity, *unit, scales),
-            None => Column::of_heading(index, heading, scales),
-        };
-        match found {
+        let said = named.iter().find(|(named, ..)| *named == index).map(|(_, quantity, unit)| (*quantity, *unit));
+        match Column::of(index, heading, said, asked.counts) {
             Ok(column) => {
                 let by_name = |column: &Column| named.iter().any(|(index, ..)| *index == column.index);
                 let other = columns.iter().position(|other| other.quantity == column.quantity);

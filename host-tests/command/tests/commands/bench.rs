@@ -73,6 +73,15 @@ impl Bench {
     }
 }
 
+/// Encoder, control, disturbance and limits of a machine whose drive does not matter.
+pub const SETTINGS: &str = "[encoder]\nlines = 2048\n[control]\nrate_hz = 10000\n[disturbance]\n\
+    torque_accuracy = 1.0\nload_torque_step = 1.0\nwithin = 1.0\n[limits]\ntorque = 100.0\nspeed = 200.0\n";
+
+#[track_caller]
+pub fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
 /// What a command answers of a file with this text.
 #[track_caller]
 pub fn answered(command: &str, text: &str) -> Value {

@@ -10,7 +10,7 @@ use driveline_report::format::{percent, significant};
 use nalgebra::{Complex, Matrix3, Vector3};
 use serde_json::Value;
 
-use super::bench::{Bench, answered};
+use super::bench::{Bench, SETTINGS, answered, number};
 use super::critical::modes;
 
 const MOTOR: f64 = 2.0;
@@ -23,16 +23,9 @@ fn machine(damper: &str) -> String {
     format!(
         "name = \"damped\"\n[[element]]\nkind = \"motor\"\ninertia = {MOTOR}\n[[element]]\nkind = \"shaft\"\n\
          stiffness = {STIFFNESS}\n[[element]]\nkind = \"gear\"\nratio = 2\n[[element]]\nkind = \"rotor\"\n\
-         label = \"load\"\ninertia = {LOAD}\n[encoder]\nlines = 2048\n[control]\nrate_hz = 10000\n\
-         [disturbance]\ntorque_accuracy = 1.0\n\
-         load_torque_step = 1.0\nwithin = 1.0\n[limits]\ntorque = 100.0\nspeed = 200.0\n\
-         [tolerance]\ndamping = 0\n[[damper]]\nat = \"load\"\n\
+         label = \"load\"\ninertia = {LOAD}\n{SETTINGS}[tolerance]\ndamping = 0\n[[damper]]\nat = \"load\"\n\
          inertia = {RING}\n{damper}"
     )
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
 }
 
 /// Angle of the load per torque on it, each on its own shaft, by the three equations of motion.

@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use cargo_driveline::machine_file::{parse, parse_train};
 use nalgebra::Complex;
-use serde_json::Value;
 
+use super::bench::{SETTINGS, number};
 use super::critical::modes;
 
 const INERTIA: f64 = 0.4;
@@ -19,11 +19,7 @@ fn six(engine: &str) -> String {
         |kind: &str, j: usize| format!("[[element]]\nkind = \"{kind}\"\nlabel = \"{j}\"\ninertia = {INERTIA}\n");
     let shaft = format!("[[element]]\nkind = \"shaft\"\nstiffness = {STIFFNESS}\ndamping = {DAMPING}\n");
     let rest: String = (2..=6).map(|j| format!("{shaft}{}", throw("rotor", j))).collect();
-    format!(
-        "name = \"six\"\n{}{rest}[encoder]\nlines = 2048\n[control]\nrate_hz = 10000\n[disturbance]\ntorque_accuracy = \
-         1.0\nload_torque_step = 1.0\nwithin = 1.0\n[limits]\ntorque = 100.0\nspeed = 200.0\n[engine]\n{engine}",
-        throw("motor", 1)
-    )
+    format!("name = \"six\"\n{}{rest}{SETTINGS}[engine]\n{engine}", throw("motor", 1))
 }
 
 /// A crank so small against its rod that lambda is 1e-3, and next to no mass.
@@ -36,10 +32,6 @@ fn engine() -> String {
          rod = 50.0\nreciprocating = 1e-9\nbore = 0.2\norders = [0.5, 1.0, 1.5, 2.5, 3.0]\npressure = [{}]\n",
         diagram.join(", ")
     )
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
 }
 
 /// Largest shaft torque of the six under torques of one frequency, by Holzer's residual torque: the angle of the first
@@ -197,9 +189,8 @@ fn the_gas_torque_does_its_work_in_a_run() {
     let diagram: Vec<String> = diagram.map(|p| format!("{p:.9}")).collect();
     let text = format!(
         "[[element]]\nkind = \"motor\"\ninertia = 0.4\n[[element]]\nkind = \"shaft\"\nstiffness = 2e4\n[[element]]\n\
-         kind = \"gear\"\nratio = 2\n[[element]]\nkind = \"rotor\"\nlabel = \"crank\"\ninertia = 2.0\n[encoder]\n\
-         lines = 2048\n[control]\nrate_hz = 10000\n[disturbance]\ntorque_accuracy = 1.0\nload_torque_step = 1.0\n\
-         within = 1.0\n[limits]\ntorque = 100.0\nspeed = 200.0\n[engine]\nstrokes = 2\ncranks = [0, 200]\n\
+         kind = \"gear\"\nratio = 2\n[[element]]\nkind = \"rotor\"\nlabel = \"crank\"\ninertia = 2.0\n\
+         {SETTINGS}[engine]\nstrokes = 2\ncranks = [0, 200]\n\
          at = [\"crank\", \"crank\"]\nradius = 0.05\nrod = 50.0\nreciprocating = 1e-9\nbore = 0.2\norders = [1]\n\
          pressure = [{}]\n[run]\ntime = 0.4\nstep = 0.4\n",
         diagram.join(", ")
@@ -233,9 +224,7 @@ fn the_mass_torque_of_an_engine_is_that_of_its_slider() {
     let run = "[run]\ntime = 0.4\nstep = 0.4\n";
     let torque = |on: &str| format!("[[torque]]\non = \"{on}\"\nkind = \"constant\"\ntorque = 4.0\n");
     let engine = format!(
-        "[[element]]\nkind = \"motor\"\nlabel = \"throw\"\ninertia = {inertia}\n[encoder]\nlines = 2048\n[control]\n\
-         rate_hz = 10000\n[disturbance]\ntorque_accuracy = 1.0\nload_torque_step = 1.0\nwithin = 1.0\n[limits]\n\
-         torque = 100.0\nspeed = 200.0\n[engine]\nstrokes = 2\ncranks = [0]\nat = [\"throw\"]\nradius = {radius}\n\
+        "[[element]]\nkind = \"motor\"\nlabel = \"throw\"\ninertia = {inertia}\n{SETTINGS}[engine]\nstrokes = 2\ncranks = [0]\nat = [\"throw\"]\nradius = {radius}\n\
          rod = {rod}\nreciprocating = {mass}\nbore = 0.1\norders = [1]\npressure = [0, 0, 0, 0, 0, 0, 0, 0]\n{}{run}",
         torque("throw")
     );
@@ -269,14 +258,14 @@ fn a_throw_lighter_than_its_slider_swings_is_refused_by_name() {
 /// A friction damper on a throw, whose inertia changes with its angle: refused at the damper, not at the throw.
 #[test]
 fn a_friction_damper_on_a_throw_is_refused_at_its_table() {
-    let text = "[[element]]\nkind = \"motor\"\nlabel = \"throw\"\ninertia = 0.4\n[[element]]\nkind = \"shaft\"\n\
-        stiffness = 2e4\n[[element]]\nkind = \"rotor\"\nlabel = \"load\"\ninertia = 0.5\n[encoder]\nlines = 2048\n\
-        [control]\nrate_hz = 10000\n[disturbance]\ntorque_accuracy = 1.0\nload_torque_step = 1.0\nwithin = 1.0\n\
-        [limits]\ntorque = 100.0\nspeed = 200.0\n[engine]\nstrokes = 2\ncranks = [0]\nat = [\"throw\"]\n\
-        radius = 0.06\nrod = 0.2\nreciprocating = 3.0\nbore = 0.1\norders = [1]\n\
-        pressure = [0, 0, 0, 0, 0, 0, 0, 0]\n[[damper]]\nkind = \"friction\"\nat = \"throw\"\ninertia = 0.02\n\
-        excitation = 10.0\n[run]\ntime = 0.1\nstep = 0.1\n";
-    let fault = parse_train("throw", text).unwrap_err();
+    let text = format!(
+        "[[element]]\nkind = \"motor\"\nlabel = \"throw\"\ninertia = 0.4\n[[element]]\nkind = \"shaft\"\n\
+         stiffness = 2e4\n[[element]]\nkind = \"rotor\"\nlabel = \"load\"\ninertia = 0.5\n{SETTINGS}[engine]\n\
+         strokes = 2\ncranks = [0]\nat = [\"throw\"]\nradius = 0.06\nrod = 0.2\nreciprocating = 3.0\nbore = 0.1\n\
+         orders = [1]\npressure = [0, 0, 0, 0, 0, 0, 0, 0]\n[[damper]]\nkind = \"friction\"\nat = \"throw\"\n\
+         inertia = 0.02\nexcitation = 10.0\n[run]\ntime = 0.1\nstep = 0.1\n"
+    );
+    let fault = parse_train("throw", &text).unwrap_err();
     assert!(fault.found.contains("on \"throw\", whose inertia changes with its angle"), "{fault}");
     assert_eq!(text.lines().nth(fault.line - 1), Some("[[damper]]"), "{fault}");
     assert!(parse_train("load", &text.replace("at = \"throw\"\ninertia", "at = \"load\"\ninertia")).is_ok());

@@ -6,11 +6,7 @@ use cargo_driveline::machine_file::parse_train;
 use driveline_solver::plant::train::{Coordinate, FourBar, FourBarPins, Orders, Source, StrokeLoad, Train, rubbing};
 use serde_json::Value;
 
-use super::bench::{Bench, answered};
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap()
-}
+use super::bench::{Bench, answered, number};
 
 fn machine(name: &str) -> String {
     format!("{}/trains/{name}.toml", env!("CARGO_MANIFEST_DIR"))

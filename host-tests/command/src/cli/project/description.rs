@@ -112,7 +112,7 @@ pub struct Project {
 }
 
 /// A mass of the machine, and the shaft before it, at the motor.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 struct Node {
     /// Index of the mass before it.
     from: usize,
@@ -365,16 +365,12 @@ fn nodes(machine: &MachineFile, weight: f64) -> Vec<Node> {
     let ring = |(ring, sized, friction): (&DamperRing, Damper, Option<f64>)| Node {
         from: ring.mass,
         inertia: format!("{:?}", sized.inertia),
-        viscous: String::new(),
-        efficiency: String::new(),
-        back_efficiency: String::new(),
-        front: String::new(),
         kind: "elastic",
         stiffness: format!("{:?}", sized.stiffness),
         damping: format!("{:?}", sized.damping),
-        gap: String::new(),
         twist: "0.0".to_owned(),
         friction: friction.map_or_else(String::new, |torque| format!("{torque:?}")),
+        ..Node::default()
     };
     masses.iter().enumerate().map(node).chain(machine.sized_dampers().into_iter().map(ring)).collect()
 }
