@@ -51,7 +51,7 @@ pub struct Export {
     name: Option<String>,
     /// Number of the drive, not of a plant; else f32 on a core with an FPU and in an FMU, fixed on a core without
     #[arg(long)]
-    number: Option<NumberName>,
+    number: Option<Number>,
     #[command(flatten)]
     parts: PartOptions,
     /// Print {folder, files, core, number, observer, state_bytes, undefined}; of an FMU {file, of, name, token}
@@ -66,15 +66,6 @@ enum Form {
     C,
     /// An FMU for simulation tools
     Fmu,
-}
-
-/// The number of a drive, as an option names it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum NumberName {
-    /// Single precision, in SI units
-    F32,
-    /// Fixed point, per unit of the machine's bases
-    Fixed,
 }
 
 /// The FMU of the drive of a machine in a file, in single precision.
@@ -103,11 +94,7 @@ impl Export {
             fmu::is_a_plant(&machine, &source)?;
         }
         let core = self.core.unwrap_or(Core::Host);
-        let number = match self.number {
-            None => core.number(),
-            Some(NumberName::F32) => Number::Single,
-            Some(NumberName::Fixed) => Number::Fixed,
-        };
+        let number = self.number.unwrap_or(core.number());
         let usual = match self.form {
             Form::C => slug(&machine.name),
             Form::Fmu => format!("{}-{}", slug(&machine.name), self.of().name()),

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use clap::ValueEnum;
 use driveline::configure::Rating;
 use driveline::design::Actuator;
 use driveline::machine::{Damper, Losses};
@@ -15,11 +16,12 @@ use crate::machine_file::designs::{BRANCHES, Designs, NO_SHAFT};
 use crate::machine_file::{DamperRing, MachineFile};
 
 /// The number of a drive.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Number {
-    /// `f32` in SI units.
+    /// Single precision, in SI units
+    #[value(name = "f32")]
     Single,
-    /// Fixed point per unit of the machine's bases.
+    /// Fixed point, per unit of the machine's bases
     Fixed,
 }
 
