@@ -4,7 +4,7 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use cargo_driveline::campaign::file_drive::{FileObserver, start};
+use cargo_driveline::campaign::file_drive::{self, start};
 use cargo_driveline::cli::answer;
 use cargo_driveline::machine_file::designs::{Designs, NO_SHAFT};
 use cargo_driveline::machine_file::read;
@@ -54,16 +54,13 @@ impl Drive {
         let machine = read(&file).map(|machine| machine.with_dampers()).map_err(refused)?.map_err(refused)?;
         let two = machine.two_masses().ok_or_else(|| refused(format!("no drive can be made: {NO_SHAFT}")))?;
         let designs = Designs::of(&machine, &two).map_err(refused)?;
-        let names = FileObserver::ALL.map(FileObserver::name).join(", ");
         let chosen = match observer {
-            None => FileObserver::selected(&designs),
-            Some(name) => FileObserver::ALL
-                .into_iter()
-                .find(|one| one.name() == name)
-                .ok_or_else(|| refused(format!("there is no observer `{name}`; there are {names}")))?,
+            None => designs.selected.chosen,
+            Some(name) => file_drive::observer(name)
+                .map_err(|names| refused(format!("there is no observer `{name}`; there are {names}")))?,
         };
         let (scene, bases) = start(&machine, &designs, chosen, words).map_err(refused)?;
-        let (rate_hz, name) = (machine.control.rate_hz, chosen.name().to_owned());
+        let (rate_hz, name) = (machine.control.rate_hz, file_drive::name(chosen).to_owned());
         Ok(Self { scene, units: Units::new(words, bases), rate_hz, name, bases: (bases.torque, bases.speed) })
     }
 

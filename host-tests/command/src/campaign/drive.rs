@@ -1,10 +1,11 @@
 //! A drive that a campaign runs.
 
+use driveline::design::ObserverChoice;
 use driveline_firmware::Words;
 use driveline_firmware::scene::Scene;
 use driveline_firmware::scenes::Row;
 
-use super::file_drive::FileObserver;
+use super::file_drive;
 use super::plain::PlainLoop;
 use super::scenes::CampaignScene;
 use driveline_closed_loop::scenario::Machine;
@@ -17,7 +18,7 @@ pub enum Drive {
     /// A variant of the scene.
     Variant(&'static Row),
     /// A machine file's drive with an observer, at this many ticks a second.
-    File(FileObserver, u32),
+    File(ObserverChoice, u32),
     /// The [`PlainLoop`] with the scene's gains, at this many ticks a second.
     Plain(u32),
 }
@@ -32,15 +33,13 @@ impl Drive {
         let (observer, rate) = machine.chosen;
         if scene.file().is_some() {
             let name = name.unwrap_or(observer);
-            let found = FileObserver::ALL.into_iter().find(|observer| observer.name() == name);
-            return match found {
-                Some(observer) => Ok(Self::File(observer, rate)),
-                None if name == PLAIN => Ok(Self::Plain(rate)),
-                None => {
-                    let observers = FileObserver::ALL.map(FileObserver::name).join(", ");
-                    Err(format!("there is no drive `{name}` for a machine file; expected {observers} or {PLAIN}"))
-                }
-            };
+            if name == PLAIN {
+                return Ok(Self::Plain(rate));
+            }
+            let found = file_drive::observer(name).map(|observer| Self::File(observer, rate));
+            return found.map_err(|observers| {
+                format!("there is no drive `{name}` for a machine file; expected {observers} or {PLAIN}")
+            });
         }
         let usual = format!("f32/{observer}/{rate}");
         match name.unwrap_or(&usual) {
@@ -60,7 +59,7 @@ impl Drive {
     pub fn name(&self, scene: &str) -> String {
         match self {
             Self::Variant(row) => row.name.to_owned(),
-            Self::File(observer, _) => format!("{scene}/{}", observer.name()),
+            Self::File(observer, _) => format!("{scene}/{}", file_drive::name(*observer)),
             Self::Plain(_) => format!("{scene}/{PLAIN}"),
         }
     }
@@ -69,7 +68,7 @@ impl Drive {
     pub fn lacks(&self, scene: &CampaignScene) -> Option<String> {
         let designs = &scene.file()?.designs;
         let lack = match self {
-            Self::File(FileObserver::Rigid, _) => designs.rigid_lacks,
+            Self::File(ObserverChoice::Rigid, _) => designs.rigid_lacks,
             Self::File(..) => designs.two_masses_lack,
             Self::Variant(_) | Self::Plain(_) => None,
         };

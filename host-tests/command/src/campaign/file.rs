@@ -1,12 +1,13 @@
 //! A machine file as a scene of campaigns: its plant, a run that its load cycle makes, and its drives.
 
+use driveline::design::ObserverChoice;
 use driveline::settings::Bases;
 use driveline_firmware::Words;
 use driveline_firmware::scene::Scene;
 use driveline_solver::plant::train::{Coordinate, Link, RigidGear, Source, Train};
 use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft, Start};
 
-use super::file_drive::{FileObserver, start};
+use super::file_drive::start;
 use crate::machine_file::designs::{BRANCHES, Designs, NO_SHAFT};
 use crate::machine_file::train::too_stiff;
 use crate::machine_file::{MachineFile, slug};
@@ -133,7 +134,7 @@ impl FileCase {
             summary: "",
             facts: Vec::new(),
             notes: Vec::new(),
-            chosen: (if designs.is_rigid() { FileObserver::Rigid } else { FileObserver::TwoMass }.name(), self.rate()),
+            chosen: (if designs.is_rigid() { "rigid" } else { "two-mass" }, self.rate()),
             scenarios: vec![run],
             encoder: Encoder::new(machine.encoder.lines.saturating_mul(4)),
             torque_noise: machine.disturbance.noise(),
@@ -153,7 +154,7 @@ impl FileCase {
     }
 
     /// The drive with an observer in `f32`, at rest.
-    pub fn start(&self, observer: FileObserver) -> Result<Box<dyn Scene>, String> {
+    pub fn start(&self, observer: ObserverChoice) -> Result<Box<dyn Scene>, String> {
         start(&self.machine, &self.designs, observer, Words::Single).map(|(drive, _)| drive)
     }
 }

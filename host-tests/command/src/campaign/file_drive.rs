@@ -19,42 +19,26 @@ use driveline_firmware::scene::{Input, Output, Scene};
 use crate::machine_file::MachineFile;
 use crate::machine_file::designs::Designs;
 
-/// The observer of a file's drive.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FileObserver {
-    /// Two masses by the exact step.
-    TwoMass,
-    /// Two masses by the semi-implicit step.
-    SemiImplicit,
-    /// One mass.
-    Rigid,
-    /// Two masses with the gap between them.
-    Backlash,
+/// The observers of a file's drive by their names on the command line.
+pub const OBSERVERS: [(&str, ObserverChoice); 4] = [
+    ("two-mass", ObserverChoice::Exact),
+    ("semi-implicit", ObserverChoice::SemiImplicit),
+    ("rigid", ObserverChoice::Rigid),
+    ("backlash", ObserverChoice::Backlash),
+];
+
+/// The observer of a name.
+///
+/// # Errors
+/// All names.
+pub fn observer(name: &str) -> Result<ObserverChoice, String> {
+    let found = OBSERVERS.iter().find(|(known, _)| *known == name);
+    found.map(|(_, observer)| *observer).ok_or_else(|| OBSERVERS.map(|(name, _)| name).join(", "))
 }
 
-impl FileObserver {
-    /// That of a project of `cargo driveline new`.
-    pub const fn selected(designs: &Designs) -> Self {
-        match designs.selected.chosen {
-            ObserverChoice::Rigid => Self::Rigid,
-            ObserverChoice::SemiImplicit => Self::SemiImplicit,
-            ObserverChoice::Exact => Self::TwoMass,
-            ObserverChoice::Backlash => Self::Backlash,
-        }
-    }
-
-    /// All.
-    pub const ALL: [Self; 4] = [Self::TwoMass, Self::SemiImplicit, Self::Rigid, Self::Backlash];
-
-    /// Its name on the command line.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::TwoMass => "two-mass",
-            Self::SemiImplicit => "semi-implicit",
-            Self::Rigid => "rigid",
-            Self::Backlash => "backlash",
-        }
-    }
+/// The name of an observer.
+pub fn name(observer: ObserverChoice) -> &'static str {
+    OBSERVERS.iter().find(|(_, known)| *known == observer).map_or("", |(name, _)| name)
 }
 
 /// The drive of a machine with its dampers, at rest, and the bases of its number.
@@ -64,7 +48,7 @@ impl FileObserver {
 pub fn start(
     machine: &MachineFile,
     designs: &Designs,
-    observer: FileObserver,
+    observer: ObserverChoice,
     number: Words,
 ) -> Result<(Box<dyn Scene>, Bases), String> {
     let Designs { two, rigid, speed_loop, .. } = designs;
@@ -81,7 +65,7 @@ pub fn start(
 struct Parts<'a> {
     machine: &'a MachineFile,
     designs: &'a Designs,
-    observer: FileObserver,
+    observer: ObserverChoice,
     bases: Bases,
     gear: Gear,
     behind: LoadGear,
@@ -131,18 +115,18 @@ macro_rules! number {
                 SpeedLoopConfig::<$number>::try_new(speed_loop, settings, bases)?,
             );
             Ok(match self.observer {
-                FileObserver::TwoMass => {
+                ObserverChoice::Exact => {
                     driven!(self, of, $number, TwoMassObserver, TwoMassConfig::<$number>::try_new(two_masses, bases))
                 }
-                FileObserver::SemiImplicit => {
+                ObserverChoice::SemiImplicit => {
                     let config = SemiImplicitConfig::<$number>::try_new(two_masses, bases);
                     driven!(self, of, $number, SemiImplicitObserver, config)
                 }
-                FileObserver::Rigid => {
+                ObserverChoice::Rigid => {
                     let share = two.load_inertia / two.total_inertia();
                     driven!(self, of, $number, RigidObserver, RigidConfig::<$number>::try_new(rigid, share, bases))
                 }
-                FileObserver::Backlash => {
+                ObserverChoice::Backlash => {
                     let design = two.try_backlash_observer(rate, encoder, disturbance, BacklashTuning::USUAL)?;
                     let config = BacklashConfig::<$number>::try_new(&design, bases);
                     driven!(self, of, $number, BacklashObserver, config)

@@ -38,21 +38,8 @@ pub struct Cosim {
     drive: PathBuf,
     /// The machine: an FMU
     machine: PathBuf,
-    /// Its input: torque of the motor
-    #[arg(long, value_name = "NAME", default_value = "motor_torque")]
-    torque: String,
-    /// Its output: angle of the motor [default: encoder_angle, unless --speed is named]
-    #[arg(long, value_name = "NAME")]
-    angle: Option<String>,
-    /// Its output: speed of the motor, integrated where no angle is named
-    #[arg(long, value_name = "NAME")]
-    speed: Option<String>,
-    /// Its output: speed of the load, at the motor, to compare the estimate with
-    #[arg(long, value_name = "NAME")]
-    load_speed: Option<String>,
-    /// Its output: torque of the shaft, at the motor, to compare the estimate with
-    #[arg(long, value_name = "NAME")]
-    shaft_torque: Option<String>,
+    #[command(flatten)]
+    names: Names,
     /// A parameter of it, or an input from a time on (s), in its own unit
     #[arg(long, value_name = "[TIME:]NAME=VALUE", value_parser = change)]
     set: Vec<Change>,
@@ -241,15 +228,9 @@ impl Cosim {
             ([], Some(largest)) => vec![(0.0, 0.5 * largest)],
             (given, _) => given.to_vec(),
         };
-        let usual = || self.speed.is_none().then(|| "encoder_angle".to_owned());
+        let usual = || self.names.speed.is_none().then(|| "encoder_angle".to_owned());
         let plan = Plan {
-            names: Names {
-                torque: self.torque.clone(),
-                angle: self.angle.clone().or_else(usual),
-                speed: self.speed.clone(),
-                load_speed: self.load_speed.clone(),
-                shaft_torque: self.shaft_torque.clone(),
-            },
+            names: Names { angle: self.names.angle.clone().or_else(usual), ..self.names.clone() },
             setpoints,
             changes: self.set.clone(),
             time: self.time,

@@ -6,21 +6,28 @@
 
 use std::f64::consts::TAU;
 
+use clap::Args;
+
 use super::description::{Description, Quantity, Unit, Variable};
 use super::fmu::Fmu;
 
 /// Variables of the machine that take part.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Args)]
 pub struct Names {
-    /// Torque of the motor.
+    /// Its input: torque of the motor
+    #[arg(long, value_name = "NAME", default_value = "motor_torque")]
     pub torque: String,
-    /// Angle of the motor.
+    /// Its output: angle of the motor [default: encoder_angle, unless --speed is named]
+    #[arg(long, value_name = "NAME")]
     pub angle: Option<String>,
-    /// Speed of the motor.
+    /// Its output: speed of the motor, integrated where no angle is named
+    #[arg(long, value_name = "NAME")]
     pub speed: Option<String>,
-    /// Speed of the load at the motor: the truth for the drive's estimate.
+    /// Its output: speed of the load, at the motor, to compare the estimate with
+    #[arg(long, value_name = "NAME")]
     pub load_speed: Option<String>,
-    /// Torque in the shaft at the motor: likewise.
+    /// Its output: torque of the shaft, at the motor, to compare the estimate with
+    #[arg(long, value_name = "NAME")]
     pub shaft_torque: Option<String>,
 }
 
