@@ -4,9 +4,7 @@ use driveline::configure::{HasMechanism, Machine};
 use driveline::design::{BacklashDesign, Disturbance, Encoder, MechanismDesign, Rate, RigidDesign, TwoMassDesign};
 use driveline::machine::TwoMass;
 use driveline::settings::{Bases, Gear};
-use driveline_firmware::scenes::{
-    blooming_mill, crane_travel, hoist, punch_press, skip_winch, spindle, strip_mill,
-};
+use driveline_firmware::scenes::{blooming_mill, crane_travel, hoist, punch_press, spindle, strip_mill};
 
 /// What an observer of a scene's machine is designed from.
 #[derive(Clone, Copy, Debug)]
@@ -82,7 +80,6 @@ impl Scene {
 }
 
 type Hoist = hoist::Hoist<10_000>;
-type Skip = skip_winch::SkipWinch;
 
 /// The scenes that are run against a plant.
 pub static SCENES: &[Scene] = &[
@@ -90,7 +87,6 @@ pub static SCENES: &[Scene] = &[
     Scene::of::<spindle::Spindle>(spindle::SCENE),
     Scene::of::<strip_mill::StripMill>(strip_mill::SCENE),
     Scene::of::<crane_travel::CraneTravel>(crane_travel::SCENE),
-    Scene::of::<Skip>(skip_winch::SCENE).geared::<Skip>().gap::<skip_winch::SkipOnRope>(),
     Scene::of::<punch_press::PunchPress>(punch_press::SCENE).crank::<punch_press::PunchPress>(),
     Scene::of::<blooming_mill::BloomingMill>(blooming_mill::SCENE).gap::<blooming_mill::BloomingMill>(),
 ];

@@ -3,11 +3,9 @@
 use std::error::Error;
 use std::ops::Range;
 
-use driveline_firmware::scenes::skip_winch;
-
 use super::recording::Recording;
 use crate::campaign::SCENES as CAMPAIGNS;
-use crate::drivetrains::{self, Build};
+use crate::drivetrains::Build;
 use cargo_driveline::campaign::Draw;
 use cargo_driveline::machine_file::class::Class;
 use driveline_closed_loop::departure::Departure;
@@ -21,21 +19,12 @@ const NOISE: f64 = 0.01;
 
 impl Recording {
     /// One run each of machines drawn from the tolerances of a scene's campaign. Where it has none, motor, inverter and
-    /// encoder are drawn as of any drive; the skip winch has its shafts and loads, too. The noise is
-    /// another one in each.
+    /// encoder are drawn as of any drive. The noise is another one in each.
     pub fn drawn(scene: &str, build: Build, numbers: Range<u64>, seconds: f64) -> Result<Self, Box<dyn Error>> {
         let campaign = CAMPAIGNS.iter().find(|campaign| campaign.name == scene);
-        let tolerances = match (campaign, scene) {
-            (Some(campaign), _) => campaign.tolerances(),
-            (None, skip_winch::SCENE) => Class::General.machine(true, false),
-            (None, _) => Class::General.drive(),
-        };
+        let tolerances = campaign.map_or_else(|| Class::General.drive(), |campaign| campaign.tolerances());
         let departing = |by: &Departure| -> Result<Machine, PlantError> {
-            match (campaign, scene) {
-                (Some(campaign), _) => campaign.departing(by),
-                (None, skip_winch::SCENE) => drivetrains::skip_winch::departing(by),
-                (None, _) => build(),
-            }
+            campaign.map_or_else(build, |campaign| campaign.departing(by))
         };
         let mut all = Recording { ticks: Vec::new(), references: [0.0; 2] };
         for number in numbers {
