@@ -26,7 +26,7 @@ pub struct Input {
     pub torque: u32,
     /// Speed setpoint, as bits of the scene's number.
     pub setpoint: u32,
-    /// Bits for the drive: [`Input::RELEASED`], [`Input::MOTORS`].
+    /// Bits for the drive: [`Input::RELEASED`].
     pub flags: u32,
     /// Vibration samples, as bits of the scene's number.
     pub vibration: [u32; 2],
@@ -38,10 +38,6 @@ impl Input {
     /// Flag: the brake is open and the governor at work; without it the scene holds, and [`Input::setpoint`] is the
     /// torque that it holds with.
     pub const RELEASED: u32 = 1;
-
-    /// Flag: no tick; a drive of several motors answers their torques in the last tick, in the first words of the
-    /// output.
-    pub const MOTORS: u32 = 1 << 16;
 }
 
 /// Output of a tick: eight words, as on the link.

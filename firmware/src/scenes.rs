@@ -22,7 +22,6 @@ macro_rules! drivetrains {
             skip_winch
             punch_press
             blooming_mill
-            converter_ring
         }
     };
 }

@@ -218,33 +218,21 @@ impl LockStep {
                 };
                 let late = if imperfections.encoder.jitter > 0.0 { timing.normal() } else { 0.0 };
                 let angle = imperfections.encoder.seen(plant.motor_angle() - *start, plant.motor_speed(), late);
-                let mut input = Input { asked: std::mem::take(asked), ..Input::default() };
-                if plant.motors() > 1 {
-                    let further = plant.further_angles().map(|angle| machine.encoder.read(angle));
-                    [input.vibration[0], input.vibration[1], input.asked[1]] = further;
-                }
                 let input = Input {
                     angle: machine.encoder.read(angle),
                     torque: units.torque_word(*reported + slipping + torque_noise),
                     setpoint: if *released { units.speed_word(*setpoint) } else { units.torque_word(scenario.held) },
                     flags: if *released { Input::RELEASED } else { 0 },
-                    ..input
+                    asked: std::mem::take(asked),
+                    ..Input::default()
                 };
                 let faults = if *missed > 0 { drive.missed(&input, std::mem::take(missed)) } else { 0 };
                 let mut output = drive.tick(&input)?;
                 output.faults |= faults;
                 *command = units.torque(output.torque);
-                if plant.motors() > 1 {
-                    let torques = drive.tick(&Input { flags: Input::MOTORS, ..Input::default() })?;
-                    let words = [torques.torque, torques.motor_speed, torques.shaft_torque, torques.load_speed];
-                    plant.share(&words.map(|word| units.torque(word))[..plant.motors()]);
-                }
                 Some((input, output))
             };
             let applied;
-            if *tripped {
-                plant.share(&vec![0.0; plant.motors()]);
-            }
             (applied, *reported) = if *tripped { (0.0, 0.0) } else { actuator.torques(*command, plant.motor_angle()) };
             if let Some((input, output)) = exchanged {
                 let moment = Moment {

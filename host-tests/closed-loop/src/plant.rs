@@ -25,10 +25,6 @@ pub enum Body {
 pub struct Referred {
     recording: train::converge::Recording,
     ratios: Vec<f64>,
-    /// What each motor's torque is over the told one; the motors are the first coordinates.
-    gains: Vec<f64>,
-    /// Each motor's torque less the mean of all (N m).
-    shares: Vec<f64>,
 }
 
 impl From<Plant> for Body {
@@ -45,44 +41,7 @@ impl Body {
             ratios[coordinate] = ratio;
         }
         let recording = train::converge::Recording::new(motion);
-        Body::Train(Box::new(Referred { recording, ratios, gains: vec![1.0], shares: vec![0.0] }))
-    }
-
-    /// The same train with several motors, which are its first coordinates: what each one's torque is over the told
-    /// one. [`advance`](Self::advance) takes the torque of all of them.
-    ///
-    /// # Panics
-    /// For a chain, which has one motor.
-    #[must_use]
-    pub fn with_motors(mut self, gains: &[f64]) -> Self {
-        let Body::Train(train) = &mut self else { panic!("a chain has one motor") };
-        (train.gains, train.shares) = (gains.to_vec(), vec![0.0; gains.len()]);
-        self
-    }
-
-    /// How many motors it has.
-    pub fn motors(&self) -> usize {
-        match self {
-            Body::Train(train) => train.gains.len(),
-            Body::Chain(_) | Body::Unrecorded(_) => 1,
-        }
-    }
-
-    /// Angles of the motors after the first, of which there are at most three (rad); zero where there is none.
-    pub fn further_angles(&self) -> [f64; 3] {
-        let Body::Train(train) = self else { return [0.0; 3] };
-        [1, 2, 3].map(|k| if k < train.gains.len() { train.recording.motion().angle(k) } else { 0.0 })
-    }
-
-    /// Divides the torque of the motors from now on: the torques told to each (N m), of which the differences from
-    /// their mean count. Of as many motors as it has; others are left aside.
-    pub fn share(&mut self, torques: &[f64]) {
-        if let Body::Train(train) = self
-            && torques.len() == train.gains.len()
-        {
-            let mean = torques.iter().sum::<f64>() / torques.len() as f64;
-            train.shares = torques.iter().map(|torque| torque - mean).collect();
-        }
+        Body::Train(Box::new(Referred { recording, ratios }))
     }
 
     /// The same plant without a record of its run, where it is a chain.
@@ -232,10 +191,7 @@ impl Body {
             Body::Chain(chain) => chain.advance(torque, dt),
             Body::Unrecorded(plant) => plant.advance(torque, dt),
             Body::Train(train) => {
-                let mean = torque / train.gains.len() as f64;
-                for (k, (gain, share)) in train.gains.iter().zip(&train.shares).enumerate() {
-                    train.recording.set_torque(k, gain * (mean + share));
-                }
+                train.recording.set_torque(0, torque);
                 train.recording.advance(dt);
             }
         }

@@ -94,7 +94,6 @@ impl Subject {
             ("skip on rope", Self::of::<skip_winch::SkipOnRope>()),
             ("punch press", Self::of_one_mass::<punch_press::PunchPress>()),
             ("blooming mill", Self::of::<blooming_mill::BloomingMill>()),
-            ("converter ring", Self::of::<converter_ring::ConverterRing>()),
             ("balanced fan", Self::of::<balanced_fan::BalancedFan>()),
             ("flexible", Self::of::<flexible::Flexible>()),
             ("surface grinder", Self::of::<surface_grinder::SurfaceGrinder>()),
