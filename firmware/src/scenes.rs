@@ -19,7 +19,6 @@ macro_rules! drivetrains {
             spindle
             strip_mill
             crane_travel
-            skip_winch
             punch_press
             blooming_mill
         }

@@ -117,8 +117,6 @@ pub struct LockStep {
     released: bool,
     command: f64,
     reported: f64,
-    tripped: bool,
-    brake: f64,
     /// A request waits for a tick that runs.
     asked: [u32; 2],
     /// Ticks that did not run since the last one that did.
@@ -140,8 +138,6 @@ impl LockStep {
             released: false,
             command: 0.0,
             reported: 0.0,
-            tripped: false,
-            brake: 0.0,
             asked: [0; 2],
             missed: 0,
         }
@@ -168,8 +164,6 @@ impl LockStep {
             released,
             command,
             reported,
-            tripped,
-            brake,
             asked,
             missed,
         } = self;
@@ -187,15 +181,9 @@ impl LockStep {
                     Action::Setpoint(speed) => *setpoint = speed,
                     Action::Release => *released = true,
                     Action::Load(node, torque) => plant.set_load_torque(node, torque),
-                    Action::Brake(node, torque) => {
-                        plant.set_brake(node, torque);
-                        if machine.told_brake == Some(node) {
-                            *brake = torque;
-                        }
-                    }
+                    Action::Brake(node, torque) => plant.set_brake(node, torque),
                     Action::Rope(shaft, stiffness, damping) => plant.set_shaft(shaft, stiffness, damping),
                     Action::Panel(key, value) => *asked = [key, value.to_bits()],
-                    Action::Trip => *tripped = true,
                 }
             }
             if let Some(law) = scenario.law {
@@ -209,12 +197,11 @@ impl LockStep {
                 *missed += 1;
                 None
             } else {
-                // Reported torque of brake and friction in the tick that has ended. At rest friction balances the
-                // motor; the torque of a closed brake is then unknown.
-                let (friction, brake) = if *released { (machine.told_friction, *brake) } else { (0.0, 0.0) };
+                // Reported torque of friction in the tick that has ended. At rest it balances the motor.
+                let friction = if *released { machine.told_friction } else { 0.0 };
                 let slipping = match plant.motor_speed() {
                     0.0 => -reported.clamp(-friction, friction),
-                    speed => -(friction + brake) * speed.signum(),
+                    speed => -friction * speed.signum(),
                 };
                 let late = if imperfections.encoder.jitter > 0.0 { timing.normal() } else { 0.0 };
                 let angle = imperfections.encoder.seen(plant.motor_angle() - *start, plant.motor_speed(), late);
@@ -233,7 +220,7 @@ impl LockStep {
                 Some((input, output))
             };
             let applied;
-            (applied, *reported) = if *tripped { (0.0, 0.0) } else { actuator.torques(*command, plant.motor_angle()) };
+            (applied, *reported) = actuator.torques(*command, plant.motor_angle());
             if let Some((input, output)) = exchanged {
                 let moment = Moment {
                     time,

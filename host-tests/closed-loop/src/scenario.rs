@@ -21,8 +21,6 @@ pub enum Action {
     Rope(usize, f64, f64),
     /// A key of the panel with a number.
     Panel(u32, f32),
-    /// The inverter is switched off: from now on the motor gives no torque, whatever the drive commands.
-    Trip,
 }
 
 /// A load torque that follows the motion.
@@ -87,9 +85,6 @@ pub struct Machine {
     pub shaft_torque: fn(&Body) -> f64,
     /// The torque that the drive calls the load's (N m).
     pub load_torque: fn(&Body) -> f64,
-    /// A brake on the motor's side; while it slips its torque is reported to the drive with the motor's, as
-    /// [`Action::Brake`] sets it.
-    pub told_brake: Option<usize>,
     /// Dry friction on the motor's side, reported to the drive with the motor's torque while it turns, as identified in
     /// commissioning (N m).
     pub told_friction: f64,

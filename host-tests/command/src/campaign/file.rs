@@ -141,7 +141,6 @@ impl FileCase {
             load: last,
             shaft_torque: SHAFTS[self.shaft.min(SHAFTS.len() - 1)],
             load_torque: LOADS[last.min(LOADS.len() - 1)],
-            told_brake: None,
             told_friction: 0.0,
             rated_speed: speed,
             bases: Bases::SI,

@@ -11,7 +11,7 @@ use driveline_report::{Fact, Variant};
 /// Noise of the reported torque in every scene, of rated torque.
 const NOISE: f64 = 0.01;
 
-/// What follows from a scene's constants. Its runs, nodes and torques are put in; nothing is told of brake or friction.
+/// What follows from a scene's constants. Its runs, nodes and torques are put in; nothing is told of friction.
 pub fn scene<M: configure::Machine>(name: &'static str, counts: u32) -> Machine {
     Machine {
         name,
@@ -25,7 +25,6 @@ pub fn scene<M: configure::Machine>(name: &'static str, counts: u32) -> Machine 
         load: 0,
         shaft_torque: |_| 0.0,
         load_torque: |_| 0.0,
-        told_brake: None,
         told_friction: 0.0,
         rated_speed: M::RATING.speed.0,
         bases: M::BASES,

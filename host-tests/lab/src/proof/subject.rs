@@ -90,8 +90,6 @@ impl Subject {
             ("spindle", Self::of::<spindle::Spindle>()),
             ("strip mill", Self::of::<strip_mill::StripMill>()),
             ("crane travel", Self::of::<crane_travel::CraneTravel>()),
-            ("skip winch", Self::of::<skip_winch::SkipWinch>()),
-            ("skip on rope", Self::of::<skip_winch::SkipOnRope>()),
             ("punch press", Self::of_one_mass::<punch_press::PunchPress>()),
             ("blooming mill", Self::of::<blooming_mill::BloomingMill>()),
             ("balanced fan", Self::of::<balanced_fan::BalancedFan>()),

@@ -5,4 +5,3 @@ mod paths;
 mod reversals;
 mod scenes;
 mod sides;
-mod winch;

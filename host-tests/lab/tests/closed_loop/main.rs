@@ -9,3 +9,4 @@ mod fluctuation;
 mod generator;
 mod load_sharing;
 mod rotor;
+mod winch;

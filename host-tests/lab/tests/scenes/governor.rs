@@ -2,5 +2,4 @@
 
 mod dynamic_part;
 mod generator_sets;
-mod slew;
 mod sway;

@@ -1,21 +1,20 @@
 //! Every scene on the host against its full plant: what it estimates, and that its solver's run is proven.
 
-use driveline::configure::Machine as _;
-use driveline::design::{LoadCycle, ObserverChoice, ObserverSelection, Requirement};
+use driveline::configure::Machine;
+use driveline::design::{LoadCycle, ObserverChoice, Requirement};
 use driveline_closed_loop::figures::{deviations, peaks};
 use driveline_closed_loop::lockstep::{Trace, run};
-use driveline_closed_loop::scenario::Machine;
+use driveline_closed_loop::scenario;
 use driveline_closed_loop::ticks::OnHost;
 use driveline_closed_loop::units::Units;
 use driveline_firmware::scenes::crane_travel::CraneTravel;
-use driveline_firmware::scenes::skip_winch::{BRAKE_TORQUE, SkipWinch};
 use driveline_firmware::scenes::spindle::Spindle;
 use driveline_firmware::scenes::strip_mill::StripMill;
 use driveline_firmware::scenes::{VARIANTS, find};
 use driveline_lab::drivetrains::SCENES;
 
 /// Runs every counted scenario of a machine with one variant.
-fn runs(machine: &Machine, variant: &str) -> Vec<Trace> {
+fn runs(machine: &scenario::Machine, variant: &str) -> Vec<Trace> {
     let row = find(variant).unwrap();
     let units = Units::new(row.words(), machine.bases);
     let counted = machine.scenarios.iter().filter(|scenario| scenario.counted);
@@ -90,12 +89,6 @@ fn crane_travel() {
 }
 
 #[test]
-fn skip_winch() {
-    meets_the_aims("skip-winch", "semi-implicit");
-    needs_two_masses("skip-winch");
-}
-
-#[test]
 fn punch_press() {
     let figures = figures("punch-press");
     assert_eq!(figures.len(), 4, "two governors, f32 and fixed");
@@ -117,19 +110,12 @@ fn runs_are_proven() {
     }
 }
 
-/// What the design selects for a load cycle: torque and its change (N m), seconds of the change and between changes.
-fn selection<M: driveline::configure::Machine>(
-    [torque, change]: [f64; 2],
-    [rise, every]: [f64; 2],
-    reverses: bool,
-) -> ObserverSelection {
+/// What the design selects for a load cycle: torque and its change, of rated torque, seconds of the change and between
+/// changes.
+fn selected<M: Machine>(shares: [f64; 2], [rise, every]: [f64; 2], reverses: bool) -> ObserverChoice {
+    let [torque, change] = shares.map(|share| share * M::RATING.torque.0);
     let cycle = LoadCycle { speed: M::RATING.speed.0, torque, change, rise, every, reverses };
-    M::TWO_MASS.select_observer(&cycle, &Requirement::USUAL, M::PERIOD)
-}
-
-/// Shares of rated torque.
-fn selected<M: driveline::configure::Machine>(shares: [f64; 2], times: [f64; 2], reverses: bool) -> ObserverChoice {
-    selection::<M>(shares.map(|share| share * M::RATING.torque.0), times, reverses).chosen
+    M::TWO_MASS.select_observer(&cycle, &Requirement::USUAL, M::PERIOD).chosen
 }
 
 /// Each scene has the observer that its design selects, or overrules it in words; a change of the machine or of the
@@ -138,9 +124,6 @@ fn selected<M: driveline::configure::Machine>(shares: [f64; 2], times: [f64; 2],
 fn the_design_selects_the_observers_of_the_scenes() {
     // a start within a second
     assert_eq!(selected::<CraneTravel>([0.4, 0.4], [1.0, 12.0], true), ObserverChoice::SemiImplicit);
-    // a brake that closes within 0.3 s
-    let torques = [1.8 * SkipWinch::RATING.torque.0, BRAKE_TORQUE];
-    assert_eq!(selection::<SkipWinch>(torques, [0.3, 5.0], false).chosen, ObserverChoice::SemiImplicit);
     // A tool that hits the work within 3 ms, three times a second, on the machine as described: twelve samples on a
     // swing are too few for the semi-implicit step. Over the tolerances one mass is better.
     assert_eq!(selected::<Spindle>([0.66, 0.64], [0.003, 0.3], false), ObserverChoice::Exact);

@@ -12,8 +12,7 @@ use driveline::machine::{Chain, Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::{Number, Part};
 use driveline_firmware::scene::FromConfig;
 use driveline_firmware::scenes::{
-    balanced_fan, blooming_mill, crane_travel, flexible, hoist, skip_winch, spindle, strip_mill, surface_grinder,
-    test_rig,
+    balanced_fan, blooming_mill, crane_travel, flexible, hoist, spindle, strip_mill, surface_grinder, test_rig,
 };
 
 /// xorshift64* [Marsaglia 2003, J. Stat. Softw. 8(14)].
@@ -152,10 +151,6 @@ fn a_thousand_machines_within_each_scene_s_tolerances_are_stable_with_6_db_to_sp
         strip_mill Rigid strip_mill::StripMill;
         crane_travel SemiImplicit crane_travel::CraneTravel;
         crane_travel Rigid crane_travel::CraneTravel;
-        skip_winch SemiImplicit skip_winch::SkipWinch;
-        skip_winch Rigid skip_winch::SkipWinch;
-        skip_winch Plain skip_winch::SkipOnRope;
-        skip_winch Slack skip_winch::SkipOnRope;
         blooming_mill Backlash blooming_mill::BloomingMill;
         blooming_mill Slack blooming_mill::BloomingMill;
         balanced_fan TwoMass balanced_fan::BalancedFan;
