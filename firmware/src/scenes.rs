@@ -34,7 +34,6 @@ macro_rules! others {
             composition
             generator
             balanced_fan
-            flexible
             surface_grinder
             commission
             test_rig

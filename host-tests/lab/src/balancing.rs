@@ -12,7 +12,6 @@
 
 mod error;
 mod fan;
-mod flexible;
 mod four_parts;
 mod grinder;
 mod in_run;

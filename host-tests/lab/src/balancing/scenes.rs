@@ -1,11 +1,11 @@
 //! The scenes by name.
 
 use super::scene::Scene;
-use super::{fan, flexible, grinder};
+use super::{fan, grinder};
 
 /// The scenes.
 #[must_use]
-pub const fn scenes() -> [Scene; 3] {
+pub const fn scenes() -> [Scene; 2] {
     [
         Scene {
             name: "balanced-fan",
@@ -14,13 +14,6 @@ pub const fn scenes() -> [Scene; 3] {
                       5 % and 10 degrees, its noise is 20 dB below the vibration, weights are set to 3 % and 2 \
                       degrees.",
             balance: fan::run,
-        },
-        Scene {
-            name: "flexible",
-            summary: "A flexible rotor of three discs, balanced in three planes at two speeds, below and above its \
-                first critical. Its sensors see \
-                      the shaft's run-out, are off by 5 % and 10 degrees and have 5 % of noise.",
-            balance: flexible::run,
         },
         Scene {
             name: "surface-grinder",

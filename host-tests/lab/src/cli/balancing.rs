@@ -1,5 +1,4 @@
-//! `cargo lab run balanced-fan`, `flexible`, `surface-grinder`: a rotor balanced by its
-//! firmware in QEMU.
+//! `cargo lab run balanced-fan`, `surface-grinder`: a rotor balanced by its firmware in QEMU.
 
 use serde_json::json;
 

@@ -33,8 +33,7 @@ use driveline_report::{SAMPLES, Sample, Variant, samples_table, variants_table};
   cargo lab run balanced-fan
   cargo lab run --json > hoist.json")]
 pub struct Run {
-    /// The scene: hoist or another drivetrain; or one whose rotor is balanced: balanced-fan, flexible,
-    /// surface-grinder
+    /// The scene: hoist or another drivetrain; or one whose rotor is balanced: balanced-fan, surface-grinder
     #[arg(default_value = "hoist")]
     scene: String,
     /// The scene, as an option

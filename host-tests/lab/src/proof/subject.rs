@@ -93,7 +93,6 @@ impl Subject {
             ("punch press", Self::of_one_mass::<punch_press::PunchPress>()),
             ("blooming mill", Self::of::<blooming_mill::BloomingMill>()),
             ("balanced fan", Self::of::<balanced_fan::BalancedFan>()),
-            ("flexible", Self::of::<flexible::Flexible>()),
             ("surface grinder", Self::of::<surface_grinder::SurfaceGrinder>()),
             ("test rig", Self::of::<test_rig::TestRig>()),
         ]

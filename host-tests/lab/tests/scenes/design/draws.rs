@@ -12,7 +12,7 @@ use driveline::machine::{Chain, Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::{Number, Part};
 use driveline_firmware::scene::FromConfig;
 use driveline_firmware::scenes::{
-    balanced_fan, blooming_mill, crane_travel, flexible, hoist, spindle, strip_mill, surface_grinder, test_rig,
+    balanced_fan, blooming_mill, crane_travel, hoist, spindle, strip_mill, surface_grinder, test_rig,
 };
 
 /// xorshift64* [Marsaglia 2003, J. Stat. Softw. 8(14)].
@@ -154,7 +154,6 @@ fn a_thousand_machines_within_each_scene_s_tolerances_are_stable_with_6_db_to_sp
         blooming_mill Backlash blooming_mill::BloomingMill;
         blooming_mill Slack blooming_mill::BloomingMill;
         balanced_fan TwoMass balanced_fan::BalancedFan;
-        flexible TwoMass flexible::Flexible;
         surface_grinder Tick surface_grinder::SurfaceGrinder;
         test_rig Whole test_rig::TestRig;
     };
