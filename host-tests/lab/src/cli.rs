@@ -1,7 +1,6 @@
 //! The command line of the laboratory: its own commands, and those of `cargo driveline`.
 
 mod atlas;
-mod balancing;
 mod check;
 mod longest_path;
 mod peers;

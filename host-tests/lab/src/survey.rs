@@ -131,7 +131,7 @@ const SEED: u64 = 1;
 fn balanced(name: &str, says: &dyn Fn(&str)) -> Result<Vec<Ran>, String> {
     let scene = balancing::Scene::named(name).ok_or("there is no such scene")?;
     let ran = |(variant, board)| scene.in_qemu(variant, board, SEED, says).map_err(|error| error.to_string());
-    scene.variants(None).into_iter().map(ran).collect()
+    scene.variants().into_iter().map(ran).collect()
 }
 
 /// The scenes beside their aims: of each the worst of the variants that the design chooses.

@@ -21,8 +21,6 @@ use driveline_qemu::link::Link;
 pub struct Scene {
     /// Its name.
     pub name: &'static str,
-    /// Description, in a sentence.
-    pub summary: &'static str,
     pub(super) balance: fn(Words, &mut dyn Ticks, u64) -> Result<Outcome, BalancingError>,
 }
 
@@ -53,26 +51,17 @@ pub struct Ran {
 }
 
 impl Scene {
-    /// Its variants on the boards that they belong on, whose number/core/observer/rate contains the filter.
+    /// Its variants on the boards that they belong on.
     #[must_use]
-    pub fn variants(&self, filter: Option<&str>) -> Vec<(&'static str, Facts)> {
+    pub fn variants(&self) -> Vec<(&'static str, Facts)> {
         let all = BOARDS.iter().flat_map(|&board| VARIANTS.iter().map(move |&variant| (variant, board)));
         all.filter(|(variant, board)| {
             variant.split('/').next() == Some(self.name)
                 && belongs(variant, board)
                 // a drive whose ticks alone are measured: without a panel there is nobody to balance
                 && variant.split('/').nth(2) != Some("tick")
-                && filter.is_none_or(|filter| key(variant, board).contains(filter))
         })
         .collect()
-    }
-
-    /// Balances with a drive whose words are of this kind; `seed` is that of everything that is left to chance.
-    ///
-    /// # Errors
-    /// Why it could not be.
-    pub fn with(&self, words: Words, drive: &mut dyn Ticks, seed: u64) -> Result<Outcome, BalancingError> {
-        (self.balance)(words, drive, seed)
     }
 
     /// Balances a variant on the host.

@@ -7,20 +7,12 @@ use super::{fan, grinder};
 #[must_use]
 pub const fn scenes() -> [Scene; 2] {
     [
-        Scene {
-            name: "balanced-fan",
-            summary: "A fan of 180 kg at 1480 r/min, found in grade G 16, balanced in two planes with trial weights. \
-                Its sensors are off by \
-                      5 % and 10 degrees, its noise is 20 dB below the vibration, weights are set to 3 % and 2 \
-                      degrees.",
-            balance: fan::run,
-        },
-        Scene {
-            name: "surface-grinder",
-            summary: "A surface grinder whose drive has all four parts: it observes coupling and wheel, measures the \
-                fluctuation that a wheel out of round makes, governs, and balances the wheel by itself while it cuts.",
-            balance: grinder::run,
-        },
+        // A fan of 180 kg at 1480 r/min, found in grade G 16, balanced in two planes with trial weights. Its sensors are
+        // off by 5 % and 10 degrees, its noise is 20 dB below the vibration, weights are set to 3 % and 2 degrees.
+        Scene { name: "balanced-fan", balance: fan::run },
+        // A surface grinder whose drive has all four parts: it observes coupling and wheel, measures the fluctuation
+        // that a wheel out of round makes, governs, and balances the wheel by itself while it cuts.
+        Scene { name: "surface-grinder", balance: grinder::run },
     ]
 }
 

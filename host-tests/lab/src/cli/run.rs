@@ -4,8 +4,6 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::balancing::{self, Wanted};
-use crate::balancing::{Scene, scenes};
 use crate::campaign::SCENES as CAMPAIGNS;
 use crate::campaign::sample;
 use crate::drivetrains::{Plan, SCENES, Variants};
@@ -30,10 +28,9 @@ use driveline_report::{SAMPLES, Sample, Variant, samples_table, variants_table};
   cargo lab run
   cargo lab run hoist --all
   cargo lab run hoist --variants f32/m4f --quick
-  cargo lab run balanced-fan
   cargo lab run --json > hoist.json")]
 pub struct Run {
-    /// The scene: hoist or another drivetrain; or one whose rotor is balanced: balanced-fan, surface-grinder
+    /// The scene: hoist or another drivetrain
     #[arg(default_value = "hoist")]
     scene: String,
     /// The scene, as an option
@@ -68,18 +65,8 @@ impl Run {
             None if self.all => Variants::All,
             None => Variants::Chosen,
         };
-        if let Some(scene) = Scene::named(scene) {
-            if self.quick {
-                return Err(Failure::usage(format!("--quick is for drivetrains, not for `{}`", scene.name)));
-            }
-            if self.html.is_some() {
-                return Err(Failure::usage(format!("`{}` has tables and no page: leave --html out", scene.name)));
-            }
-            return balancing::run(&scene, Wanted { variants, json: self.json });
-        }
         if !SCENES.iter().any(|(name, _)| *name == scene) {
-            let names = SCENES.iter().map(|(name, _)| *name).chain(scenes().map(|scene| scene.name));
-            let names: Vec<String> = names.map(|name| format!("`{name}`")).collect();
+            let names: Vec<String> = SCENES.iter().map(|(name, _)| format!("`{name}`")).collect();
             return Err(Failure::usage(format!("there is no scene `{scene}`; there are {}", names.join(", "))));
         }
         let plan = Plan::of(scene, variants, self.quick).map_err(Failure::usage)?;

@@ -116,7 +116,6 @@ fn wrong_arguments_end_with_2() {
 fn a_wrong_name_is_answered_with_the_right_ones() {
     for (arguments, there) in [
         (&["run", "--variants", "nothing"][..], "fixed/m3/reduced/10000"),
-        (&["run", "balanced-fan", "--variants", "nothing"], "fixed/m3/two-mass/4000"),
         (&["watch", "--qemu", "nothing"], "hoist/f32/reduced/10000"),
         (&["watch", "--qemu", "hoist/f32/reduced/10000", "--core", "m7"], "m4f"),
         (&["watch"], "--qemu VARIANT"),
