@@ -92,7 +92,7 @@ fn plant(machine: &TwoMass, period: f64) -> Square {
 }
 
 /// Whether a subject's loop round another machine is stable: its step on each state, by simulation of one tick.
-fn is_stable(subject: &Subject, machine: &TwoMass, torque: f64, lag: f64, ticks: usize) -> bool {
+pub(crate) fn is_stable(subject: &Subject, machine: &TwoMass, torque: f64, lag: f64, ticks: usize) -> bool {
     let (t, governor) = (subject.rigid.period, subject.speed_loop.unwrap());
     let plant = plant(machine, t);
     // motor less estimated angle, motor speed, twist, load speed; estimates; integral, damping, actuator; commands
