@@ -3,8 +3,6 @@
 //! Referred to the motor here once more from the same figures as the scenes, but by own arithmetic [Huang 1987 ch. 1,
 //! Wang 1989 §1-3].
 
-use core::f64::consts::PI;
-
 use driveline::commissioning::TestSettings;
 use driveline::configure::Machine as _;
 use driveline_firmware::scenes::blooming_mill::BloomingMill;
@@ -13,6 +11,7 @@ use driveline_firmware::scenes::hoist::Hoist;
 use driveline_firmware::scenes::spindle::{self, Spindle};
 
 use super::truth::Truth;
+use crate::drivetrains;
 use driveline_solver::plant::{Chain, Plant, PlantError, Shaft, Start};
 
 /// A machine to be commissioned.
@@ -99,17 +98,7 @@ fn mill() -> Result<Case, PlantError> {
 
 /// The spindle in the air, with a little drag in its bearings.
 fn tool() -> Result<Case, PlantError> {
-    // As the scene's shaft: 46 mm on 360 mm, a taper to 60 mm on 120 mm, bored by 22 mm, by Simpson's rule [Wang 1989
-    // §1-3].
-    let bore = 0.022_f64.powi(4);
-    let taper: f64 = (0..=1000)
-        .map(|j| {
-            let d = 0.046 + (0.060 - 0.046) * f64::from(j) / 1000.0;
-            let weight = if j == 0 || j == 1000 { 1.0 } else { 2.0 + 2.0 * f64::from(j % 2) };
-            weight / (d.powi(4) - bore)
-        })
-        .sum();
-    let stiffness = 79.3e9 * PI / 32.0 / (0.360 / (0.046_f64.powi(4) - bore) + taper * 0.120 / 3000.0);
+    let stiffness = drivetrains::spindle::stiffness();
     let drag = 0.002;
     let chain =
         Chain::motor(0.012).viscous(drag).shaft(Shaft::elastic(stiffness).damping(0.3), 0.004).start(Start::Rest);

@@ -18,7 +18,7 @@ const STEEL: f64 = 79.3e9;
 const CUT: f64 = 45.0;
 
 /// Stiffness of the shaft from its diameters (N m/rad), by Simpson's rule along the taper [Wang 1989 §1-3].
-fn stiffness() -> f64 {
+pub fn stiffness() -> f64 {
     let bore = 0.022_f64.powi(4);
     let straight = 0.360 / (0.046_f64.powi(4) - bore);
     let pieces = 1000;
