@@ -418,14 +418,20 @@ impl MachineFile {
         })
     }
 
-    /// The observers of one and of two masses at another rate, the noise of the torque in a tick at the same density:
-    /// errors of shaft torque, load speed and load torque over the tolerances, and what the loop lacks.
-    pub fn at_rate(&self, two: &TwoMass, rate_hz: u32) -> [(&'static str, AtRate); 2] {
+    /// It at another rate, with the density of the torque's noise as it was.
+    pub fn with_rate(&self, rate_hz: u32) -> Self {
         let mut machine = self.clone();
         let share = (f64::from(rate_hz) / f64::from(self.control.rate_hz)).sqrt();
         machine.control.rate_hz = rate_hz;
         machine.disturbance.torque_accuracy *= share;
         machine.disturbance.torque_noise = machine.disturbance.torque_noise.map(|noise| noise * share);
+        machine
+    }
+
+    /// The observers of one and of two masses at another rate, the noise of the torque in a tick at the same density:
+    /// errors of shaft torque, load speed and load torque over the tolerances, and what the loop lacks.
+    pub fn at_rate(&self, two: &TwoMass, rate_hz: u32) -> [(&'static str, AtRate); 2] {
+        let machine = self.with_rate(rate_hz);
         let (rate, encoder, disturbance) = machine.tuning();
         let (drawn, tolerance) = (machine.drawn_encoder(), machine.tolerance());
         let operation = machine.operation(two, machine.ramp(two.total_inertia()));

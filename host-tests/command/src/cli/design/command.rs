@@ -18,7 +18,7 @@ use crate::machine_file::read;
   cargo driveline design hoist.toml
   cargo driveline design my.toml --emit rust > src/my_machine.rs
   cargo driveline design my.toml --html my.html
-  cargo driveline design my.toml --rates
+  cargo driveline design my.toml --rates --draws 40
   cargo driveline design my.toml --json")]
 pub struct Design {
     /// The machine: a TOML file of elements from the motor to the load
@@ -32,6 +32,9 @@ pub struct Design {
     /// Compare rates and observers: errors over the tolerances against instructions a second, their front marked
     #[arg(long, conflicts_with = "emit")]
     rates: bool,
+    /// With --rates: run each drive with this many machines drawn from within the tolerances, and compare these errors
+    #[arg(long, value_name = "COUNT", requires = "rates", value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    draws: Option<u64>,
     /// Print JSON, with the responses as arrays; with --emit, {"rust": "..."}
     #[arg(long)]
     pub json: bool,
@@ -61,6 +64,7 @@ impl Design {
         if let (Some(_), Some(why)) = (self.emit, unstable) {
             return Err(Failure::failed(format!("{}: no constants are printed: {why}", self.file.display())));
         }
+        let draws = self.draws.unwrap_or(0);
         let drawn = || responses(&machine, Detail::FULL).map_err(refused);
         match (self.emit, self.json) {
             (Some(Language::Rust), true) => {
@@ -68,10 +72,10 @@ impl Design {
             }
             (Some(Language::Rust), false) => say(emitted(&machine, &plan).map_err(refused)?.trim_end()),
             (None, true) => {
-                let rates = self.rates.then(|| rates::choices(&machine));
+                let rates = self.rates.then(|| rates::choices(&machine, draws));
                 say_json(&Whole { plan: &plan, responses: drawn()?, widest: widest(&machine, &plan), rates })?;
             }
-            (None, false) if self.rates => say(rates::text(&machine)),
+            (None, false) if self.rates => say(rates::text(&machine, draws)),
             (None, false) => say(text(&machine, &plan)),
         }
         if let Some(html) = html {

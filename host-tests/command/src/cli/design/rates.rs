@@ -4,12 +4,22 @@ use driveline_report::Table;
 use driveline_report::format::{percent, rate, significant};
 use serde::Serialize;
 
+use crate::campaign::drive::Drive;
+use crate::campaign::run::run;
+use crate::campaign::scenes::CampaignScene;
+use crate::campaign::{Draw, Figure, quantile, work};
+use crate::cli::Progress;
 use crate::machine_file::MachineFile;
+use driveline_closed_loop::departure::Departure;
 
 /// Instructions at most of a tick with observer and speed loop: M4F in `f32`, M3 in fixed point. Those of
 /// `budgets.toml`, which a test of the book compares.
 pub const INSTRUCTIONS: [(&str, [u32; 2]); 3] =
     [("rigid", [117, 117]), ("semi-implicit", [129, 140]), ("exact", [151, 191])];
+
+/// Least and most nanoseconds of an instruction on an M4F at 168 MHz: 1.58 to 1.80 cycles, as of the hoist's images in
+/// `doc/makers/worst-case.md`.
+const NANOSECONDS: [f64; 2] = [1.58 / 0.168, 1.80 / 0.168];
 
 /// Rates that are tried, of the file's.
 const SHARES: [f64; 7] = [0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0];
@@ -23,16 +33,20 @@ pub struct Choice {
     pub observer: &'static str,
     /// Errors of shaft torque, load speed and load torque over the tolerances; `null` where it is refused.
     pub errors: Option<[f64; 3]>,
+    /// Medians of the same on drawn machines, in closed loop with the full solver; `null` where none are drawn.
+    pub drawn: Option<[f64; 3]>,
     /// Instructions a second, M4F in `f32` and M3 in fixed point.
     pub instructions: Option<[f64; 2]>,
     /// What its speed loop lacks, or why there is no such observer.
     pub lacks: Option<String>,
-    /// Whether no other with all margins has smaller errors of shaft torque and load speed for less.
+    /// Whether no other with all margins has smaller errors of shaft torque and load speed for less: drawn ones, where
+    /// machines are drawn.
     pub on_front: bool,
 }
 
-/// Both observers at every rate; none of a machine without a shaft.
-pub fn choices(machine: &MachineFile) -> Vec<Choice> {
+/// Both observers at every rate, with so many machines drawn for each that has all margins; none of a machine without a
+/// shaft.
+pub fn choices(machine: &MachineFile, draws: u64) -> Vec<Choice> {
     let Some(two) = machine.two_masses() else { return Vec::new() };
     let own = f64::from(machine.control.rate_hz);
     let rates = SHARES.iter().map(|share| (share * own).round()).filter(|rate| (10.0..=200e3).contains(rate));
@@ -46,11 +60,22 @@ pub fn choices(machine: &MachineFile) -> Vec<Choice> {
                 Err(error) => (None, Some(error)),
             };
             let instructions = counts.filter(|_| errors.is_some()).map(a_second);
-            Choice { rate_hz: rate as u32, observer, errors, instructions, lacks, on_front: false }
+            Choice { rate_hz: rate as u32, observer, errors, drawn: None, instructions, lacks, on_front: false }
         })
         .collect();
+    if draws > 0 {
+        let progress = Progress::of(choices.iter().filter(|choice| choice.lacks.is_none()).count() as u64);
+        for choice in choices.iter_mut().filter(|choice| choice.lacks.is_none()) {
+            progress.says(&format!("{} at {}", choice.observer, rate(choice.rate_hz)));
+            match drawn(&machine.with_rate(choice.rate_hz), choice.observer, draws) {
+                Ok(found) => choice.drawn = Some(found),
+                Err(why) => choice.lacks = Some(why),
+            }
+            progress.step();
+        }
+    }
     let figures = |choice: &Choice| {
-        let ([torque, speed, _], [cost, _]) = choice.errors.zip(choice.instructions)?;
+        let ([torque, speed, _], [cost, _]) = choice.drawn.or(choice.errors).zip(choice.instructions)?;
         choice.lacks.is_none().then_some([torque, speed, cost])
     };
     let all: Vec<_> = choices.iter().filter_map(figures).collect();
@@ -61,24 +86,40 @@ pub fn choices(machine: &MachineFile) -> Vec<Choice> {
     choices
 }
 
+/// Median errors of shaft torque, load speed and load torque over drawn machines.
+fn drawn(machine: &MachineFile, observer: &str, draws: u64) -> Result<[f64; 3], String> {
+    let scene = CampaignScene::of_file(machine.clone())?;
+    let nominal = scene.departing(&Departure::NONE).map_err(|error| error.to_string())?;
+    let drive = Drive::named(&scene, &nominal, Some(if observer == "exact" { "two-mass" } else { observer }))?;
+    let (tolerances, numbers) = (scene.tolerances(), (0..draws).collect::<Vec<_>>());
+    let mut outcomes = Vec::new();
+    work(&numbers, None, &|number| run(&scene, &drive, &Draw::new(&tolerances, 1, number)), &mut |_, outcome| {
+        outcomes.push(outcome);
+        Ok(())
+    })?;
+    match outcomes.iter().filter(|outcome| outcome.is_unstable()).count() {
+        0 => Ok([Figure::ShaftTorque, Figure::LoadSpeed, Figure::LoadTorque].map(|figure| {
+            let mut errors: Vec<f64> = outcomes.iter().filter_map(|outcome| outcome.found(figure)).collect();
+            errors.sort_by(f64::total_cmp);
+            quantile(&errors, 0.5)
+        })),
+        unstable => Err(format!("{unstable} of {draws} drawn machines are unstable")),
+    }
+}
+
 /// The table.
-pub fn text(machine: &MachineFile) -> String {
-    let choices = choices(machine);
+pub fn text(machine: &MachineFile, draws: u64) -> String {
+    let choices = choices(machine, draws);
     if choices.is_empty() {
         return "no rates are compared: the machine has no shaft".to_owned();
     }
-    let mut table = Table::new([
-        "rate",
-        "observer",
-        "shaft torque",
-        "load speed",
-        "load torque",
-        "million a second, M4F f32",
-        "M3 fixed",
-        "",
-    ]);
+    let mut heads = vec!["rate", "observer", "shaft torque", "load speed", "load torque"];
+    if draws > 0 {
+        heads.extend(["shaft torque, drawn", "load speed, drawn", "load torque, drawn", "µs a tick, M4F"]);
+    }
+    let mut table = Table::new(heads.into_iter().chain(["million a second, M4F f32", "M3 fixed", ""]));
     for choice in &choices {
-        let errors = choice.errors.map_or([const { String::new() }; 3], |errors| errors.map(percent));
+        let three = |errors: Option<[f64; 3]>| errors.map_or([const { String::new() }; 3], |e| e.map(percent));
         let costs =
             choice.instructions.map_or([const { String::new() }; 2], |costs| costs.map(|n| significant(1e-6 * n)));
         let last = match &choice.lacks {
@@ -87,10 +128,27 @@ pub fn text(machine: &MachineFile) -> String {
             None => String::new(),
         };
         let name = if choice.observer == "rigid" { "one mass" } else { choice.observer };
-        table.row([rate(choice.rate_hz), name.to_owned()].into_iter().chain(errors).chain(costs).chain([last]));
+        let mut cells = vec![rate(choice.rate_hz), name.to_owned()];
+        cells.extend(three(choice.errors));
+        if draws > 0 {
+            cells.extend(three(choice.drawn));
+            cells.push(choice.instructions.map_or_else(String::new, |[a_second, _]| {
+                let a_tick = a_second / f64::from(choice.rate_hz);
+                NANOSECONDS.map(|each| significant(1e-3 * each * a_tick)).join(" to ")
+            }));
+        }
+        table.row(cells.into_iter().chain(costs).chain([last]));
     }
+    let drawn = match draws {
+        0 => String::new(),
+        _ => format!(
+            "\ndrawn: medians of the same over {draws} machines, in closed loop with the full solver; \
+             microseconds at 168 MHz, by intervals of cycles"
+        ),
+    };
     format!(
         "{table}front: no other choice with all margins has smaller errors of shaft torque and load speed for less\n\
-         errors over tolerances, rms; the torque's noise has the same density at every rate; instructions at most, counted"
+         errors over tolerances, rms; the torque's noise has the same density at every rate; instructions at most, counted\
+         {drawn}"
     )
 }
