@@ -16,24 +16,30 @@
 //! |---|---|---|
 //! | `plain` | by a plain speed loop, which fights the ripple | nothing |
 //! | `mean` | on the speed without its ripple, so that the flywheel does the stroke's work | the fluctuation over the stroke; advises a flywheel |
+//! | `guarded` | as `plain`, and stops at a force of the punch | the force; the mesh of the motor's pinion |
 
-use driveline::configure::{GainSource, HasMechanism, Machine, Rating};
+use driveline::configure::{GainSource, HasGearMesh, HasMechanism, Machine, Rating, Units};
 use driveline::design::{
-    Actuator, Disturbance, Encoder, GovernorDesign, LoadFeedForward, SpeedLoopDesign, SpeedLoopTuning,
+    Actuator, Disturbance, Encoder, ForceAccuracy, GovernorDesign, LoadFeedForward, LoadStep, SpeedLoopDesign,
+    SpeedLoopTuning, Supervision,
 };
 use driveline::drive::{ConfigOf, Drive};
-use driveline::fluctuation::{Balance, CycleMean, Flywheel, FourierSeries, Summed, Waveform, WaveformConfig, Window};
-use driveline::governor::{CycleAverage, SpeedGovernor, SpeedLoop, SymmetricLimit};
+use driveline::fault::Faults;
+use driveline::fluctuation::{
+    Balance, CycleMean, Flywheel, FourierSeries, GearMesh, Sideband, Summed, Waveform, WaveformConfig, Window,
+};
+use driveline::governor::{CycleAverage, SpeedGovernor, SpeedLoop, Supervised, SymmetricLimit};
 use driveline::machine::{
     Chain, CrankSlider, Damping, DrivenMechanism, Efficiency, Inertia, Length, Mass, Match, Mechanism, Ratio, Speed,
     Stiffness, Torque, TwoMass,
 };
-use driveline::number::Number;
-use driveline::observer;
+use driveline::number::{Fixed, Number};
+use driveline::observer::{self, ForceLimit, ForceLimitConfig};
 use driveline::settings::{Bases, Cycle, Screening};
 
-use crate::scene::composed::{Beside, Composed};
+use crate::scene::composed::{Beside, Composed, OverWords as _};
 use crate::scene::table::variants;
+use crate::scene::{Input, Output};
 
 /// Turns of the motor to one of the crank.
 pub const RATIO: u32 = 14;
@@ -73,6 +79,24 @@ impl Machine for PunchPress {
     /// In 25 ms the motor turns by less than half a turn.
     const SCREENING: Screening =
         Screening { max_coast: Self::RATE_HZ / 40, ..Self::RATING.screening(Self::ENCODER, Self::RATE) };
+    /// The punch up to the force at which the press stops, over a quarter of its way.
+    const LOAD_STEP: LoadStep = LoadStep { torque: 2_600.0, rise: 0.024 };
+    /// The punch is the work: it comes through the eccentric shaft. What it takes of the speed is the flywheel's.
+    const SUPERVISION: Supervision = Supervision {
+        change: 4_000.0,
+        load_torque: [-4_000.0, 4_000.0],
+        shaft_torque: 6_000.0,
+        ..Supervision::of(
+            &Self::RATING,
+            Self::MECHANISM_OBSERVER.rigid.innovation_response(&Self::LOAD_STEP),
+            &Self::TOLERANCE,
+            Self::ENCODER,
+            &Self::LOAD_STEP,
+            Self::RAMP,
+            Self::PERIOD,
+        )
+        .within(&Self::SCREENING)
+    };
     const CYCLE: Cycle = STROKE;
     const CYCLES: u32 = 4;
 }
@@ -80,6 +104,12 @@ impl Machine for PunchPress {
 /// As the observer has it.
 impl HasMechanism for PunchPress {
     const DRIVEN: DrivenMechanism = DrivenMechanism::new(Inertia(FLYWHEEL), &Mechanism::slider_crank(&RAM), 1, RATIO);
+}
+
+/// A pinion of 20 teeth on the motor's shaft, a wheel of 280 on the crank's.
+impl HasGearMesh<2> for PunchPress {
+    const TEETH: u32 = 20;
+    const MESH: [Sideband; 2] = [Sideband::MESH, Sideband::of_motor(1)];
 }
 
 /// Counts of the encoder on a turn.
@@ -141,6 +171,11 @@ pub mod panel {
     /// Inertia that is missing at the motor (kg m2).
     pub const MISSING: u32 = 5;
 
+    /// The force of the punch at this moment (N), as the bits of `f32`.
+    pub const FORCE: u32 = 6;
+    /// Amplitude of a line of the mesh in the motor's angle (rad), as the bits of `f32`; 0 before the first reading.
+    pub const MESH: u32 = 7;
+
     /// Answer: done.
     pub const DONE: u32 = 1;
     /// Answer: no data for a flywheel.
@@ -159,14 +194,20 @@ pub type MeanDrive<N> = Drive<
     (CycleMean<SEGMENTS>, Waveform<BINS>),
 >;
 
+/// The drive of a press that stops at a force, with the mesh of its gear.
+pub type GuardedDrive<N> = Drive<N, observer::ToolObserver, Supervised<SpeedLoop>, GearMesh<2, 9>>;
+
 /// A plain speed loop.
 pub type Plain<N> = Composed<PlainDrive<N>, FromTop>;
 /// A governor on the speed without its ripple, and the measurement of the fluctuation.
 pub type Mean<N> = Composed<MeanDrive<N>, Notes<N>>;
+/// A plain speed loop with a guard.
+pub type Guarded<N> = Composed<GuardedDrive<N>, Guard<N>>;
 
 variants! {
     "plain": Plain for PunchPress;
     "mean": Mean for PunchPress;
+    "guarded": Guarded for PunchPress;
 }
 
 /// A crank that starts at its top.
@@ -227,4 +268,80 @@ impl<N: Summed<Real = f32>> Notes<N> {
         self.advice = ripple.flywheel(&config.cycle, &balance, permissible).map(|flywheel| (ripple.mean, flywheel));
         if self.advice.is_some() { panel::DONE } else { panel::NONE }
     }
+}
+
+/// The force at which the press stops (N): a fourth above the rated 800 kN.
+pub const LIMIT: f64 = 1e6;
+/// Idle torque of bearings and gibs at the motor (N m), measured over a stroke without plate at rated speed.
+const IDLE: f64 = 20.0;
+
+/// A number in which the force is limited.
+pub trait Limited: Units + 'static {
+    /// The limit, judged at a quarter of the largest leverage or more.
+    const LIMIT: &'static ForceLimitConfig<Self>;
+}
+
+impl Limited for f32 {
+    const LIMIT: &'static ForceLimitConfig<f32> =
+        &ForceLimitConfig::<f32>::new(&PunchPress::MECHANISM_OBSERVER, LIMIT, IDLE, 0.25, Bases::SI);
+}
+
+impl Limited for Fixed {
+    const LIMIT: &'static ForceLimitConfig<Fixed> =
+        &ForceLimitConfig::<Fixed>::new(&PunchPress::MECHANISM_OBSERVER, LIMIT, IDLE, 0.25, PunchPress::BASES);
+}
+
+/// Watches the force of the punch, and keeps the lines of the mesh.
+pub struct Guard<N> {
+    limit: ForceLimit<N>,
+    mesh: [f32; 2],
+}
+
+impl<N: Limited> Beside<GuardedDrive<N>> for Guard<N> {
+    fn start(drive: &mut GuardedDrive<N>, config: &ConfigOf<GuardedDrive<N>>) -> Self {
+        drive.observer_mut().home(&config.observer, TOP);
+        Guard { limit: ForceLimit::default(), mesh: [0.0; 2] }
+    }
+
+    #[inline(always)]
+    fn tick(&mut self, drive: &mut GuardedDrive<N>, config: &ConfigOf<GuardedDrive<N>>, input: &Input) -> Output {
+        let output = drive.advance(config, input);
+        let leverage = drive.observer().leverage(&config.observer);
+        if self.limit.is_exceeded(N::LIMIT, leverage, &drive.estimate(config)) {
+            drive.governor_mut().stop(Faults::SHAFT_OVERLOAD);
+        }
+        output
+    }
+
+    fn panel(
+        &mut self,
+        drive: &mut GuardedDrive<N>,
+        config: &mut &'static ConfigOf<GuardedDrive<N>>,
+        [key, value]: [u32; 2],
+    ) -> u32 {
+        if let Some((line, Ok(reading))) = drive.fluctuation_mut().take(&config.fluctuation)
+            && let Some(kept) = self.mesh.get_mut(line)
+        {
+            *kept = reading.phasor.amplitude();
+        }
+        match key {
+            panel::FORCE => (force(drive, config) as f32).to_bits(),
+            panel::MESH => self.mesh.get(value as usize).map_or(0, |amplitude| amplitude.to_bits()),
+            _ => 0,
+        }
+    }
+}
+
+/// Force of the punch at this moment (N).
+#[inline(never)]
+fn force<N: Limited>(drive: &GuardedDrive<N>, config: &ConfigOf<GuardedDrive<N>>) -> f64 {
+    const ACCURACY: ForceAccuracy = ForceAccuracy { idle: 1.0, relative: 0.01, angle: 1e-3 };
+    let estimate = drive.estimate(config).si::<PunchPress>();
+    let angle = f64::from(drive.observer().crank_angle(&config.observer)) / 4_294_967_296.0 * core::f64::consts::TAU;
+    PunchPress::MECHANISM_OBSERVER.tool_force(
+        angle,
+        estimate.motor_speed.into(),
+        f64::from(estimate.load_torque) - IDLE,
+        &ACCURACY,
+    )[1]
 }

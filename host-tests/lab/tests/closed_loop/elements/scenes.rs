@@ -91,7 +91,7 @@ fn crane_travel() {
 #[test]
 fn punch_press() {
     let figures = figures("punch-press");
-    assert_eq!(figures.len(), 4, "two governors, f32 and fixed");
+    assert_eq!(figures.len(), 6, "three governors, f32 and fixed");
     for (variant, [torque, speed]) in figures {
         assert!(torque <= 0.02 && speed <= 0.003, "{variant}: {torque}, {speed}");
     }

@@ -1,17 +1,19 @@
 //! The punch press with its drive: the flywheel rides through the stroke, and the flywheel that is advised does what is
 //! said of it.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::io;
 
-use driveline::configure::Machine as _;
+use driveline::configure::{HasMechanism as _, Machine as _};
+use driveline::fault::Faults;
 use driveline_closed_loop::lockstep::{Moment, Trace, run};
+use driveline_closed_loop::plant::Body;
 use driveline_closed_loop::scenario::{Law, Scenario};
 use driveline_closed_loop::ticks::{OnHost, Ticks};
 use driveline_closed_loop::units::Units;
 use driveline_firmware::scene::{Input, Output, Scene};
 use driveline_firmware::scenes::find;
-use driveline_firmware::scenes::punch_press::{PunchPress, over_stroke, panel};
+use driveline_firmware::scenes::punch_press::{LIMIT, PunchPress, RAM, over_stroke, panel};
 use driveline_lab::drivetrains::punch_press::{CRANK, machine, press, stamping};
 
 /// Asks the panel for an advice in the last ticks, and keeps the answers.
@@ -147,6 +149,75 @@ fn the_flywheel_rides_through_the_stroke_and_the_advice_holds() {
 #[ignore = "takes as long again, for the other number"]
 fn the_same_in_fixed_point() {
     rides_and_advises("fixed", 0.12);
+}
+
+/// Asks the panel for the force in every tick, and takes the mean of 41 of them for the middle one.
+struct Weighing<S> {
+    drive: OnHost<S>,
+    forces: Vec<f64>,
+}
+
+impl<S: Scene> Ticks for Weighing<S> {
+    fn tick(&mut self, input: &Input) -> io::Result<Output> {
+        let output = self.drive.tick(&Input { asked: [panel::FORCE, 0], ..*input })?;
+        self.forces.push(f32::from_bits(output.answer).into());
+        Ok(output)
+    }
+}
+
+/// Plate of twice the strength.
+fn doubled(press: &Body) -> f64 {
+    2.0 * stamping(press)
+}
+
+/// The guarded press weighs the punch within 3 % of its 800 kN where the leverage is a quarter of the largest or more. It
+/// stops within a millisecond of the limit, which plate of twice the strength passes: `F = tau/(dx/dphi)` of the torque
+/// of the plate, with the way of a slider-crank.
+fn weighs_and_stops(number: &str) {
+    let machine = machine().unwrap();
+    let row = find(&format!("punch-press/{number}/guarded/10000")).unwrap();
+    let units = Units::new(row.words(), machine.bases);
+    let [r, l] = [RAM.radius.0, RAM.rod.0];
+    for (torque, peak) in [(stamping as fn(&Body) -> f64, 25_800.0), (doubled, 51_600.0)] {
+        let law = Some(Law { node: CRANK, torque });
+        let scenario = Scenario { plant: press(0.0).unwrap(), duration: 5.0, law, ..machine.scenarios[0].clone() };
+        let mut drive = Weighing { drive: OnHost(row.start()), forces: Vec::new() };
+        let trace = run(&machine, &scenario, &units, row.rate_hz, &mut drive, |_| {}).unwrap();
+        let (mut angle, mut worst, mut exceeded) = (PI, 0.0_f64, None);
+        let stopped = trace.moments.iter().position(|moment| moment.faults != 0);
+        for (tick, moment) in trace.moments.iter().enumerate() {
+            angle += moment.truth[1] / 14.0 / f64::from(row.rate_hz);
+            let (sine, cosine) = angle.sin_cos();
+            let leverage = r * sine * (1.0 + r * cosine / (l * l - r * r * sine * sine).sqrt());
+            if leverage.abs() < 0.25 * r || angle < 2.0 * TAU + PI {
+                continue;
+            }
+            let way = (angle + 44.0 / 360.0 * TAU).rem_euclid(TAU) / (40.0 / 360.0 * TAU);
+            let force = if way < 1.0 { peak * (PI * way).sin().powi(2) / leverage } else { 0.0 };
+            if force.abs() > LIMIT {
+                exceeded.get_or_insert(tick);
+            }
+            // a reading of 41 ticks, and as late as the observer
+            let late = (1e4 * PunchPress::MECHANISM_OBSERVER.load_delay()) as usize;
+            let (from, to) = (tick + late - 20, tick + late + 21);
+            if let Some(read) = drive.forces.get(from..to).filter(|_| stopped.is_none_or(|stop| to < stop)) {
+                worst = worst.max((read.iter().sum::<f64>() / 41.0 - force).abs() / 800e3);
+            }
+        }
+        println!("{number}: off by {worst:.4}, exceeded {exceeded:?}, stopped {stopped:?}");
+        assert!(worst < 0.03, "{number}: {worst}");
+        assert_eq!(stopped.is_some(), exceeded.is_some(), "{number}");
+        assert!(stopped.unwrap_or(0).abs_diff(exceeded.unwrap_or(0)) <= 10, "{number}: {stopped:?}, {exceeded:?}");
+        let faults = stopped.map_or(0, |tick| trace.moments[tick].faults);
+        let overload = if stopped.is_some() { Faults::SHAFT_OVERLOAD } else { Faults::NONE };
+        assert_eq!(faults & Faults::SHAFT_OVERLOAD.bits(), overload.bits(), "{number}: {faults:#x}");
+    }
+}
+
+#[test]
+fn the_guarded_press_weighs_and_stops() {
+    weighs_and_stops("f32");
+    weighs_and_stops("fixed");
 }
 
 /// The loop over the stroke, cut at the torque: `k_p + k_i/s` times `1/(J s)` times what the speed without its ripple
