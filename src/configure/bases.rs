@@ -128,6 +128,23 @@ impl Rating {
 
     /// [`bases`](Self::bases) for a drive with the observer of one mass: a machine of one mass, or one whose shaft no
     /// observer can follow at its rate.
+    ///
+    /// ```
+    /// use driveline::prelude::*;
+    /// use driveline::{design::SpeedLoopTuning, number::Fixed, observer::RigidObserver, settings::Bases};
+    /// /// A shaft with 1100 Hz at 2000 ticks a second.
+    /// struct Stiff;
+    /// impl Machine for Stiff {
+    ///     const CHAIN: Chain = Chain::motor(Inertia(0.35)).shaft(Stiffness(1.0e7), Damping(0.5)).rotor(Inertia(0.48));
+    ///     const RATING: Rating = Rating { torque: Torque(300.0), speed: Speed(150.0), torque_limit: Torque(550.0) };
+    ///     const ENCODER: Encoder = Encoder::lines(2048);
+    ///     const RATE_HZ: u32 = 2_000;
+    ///     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.003, damping: 1.0, shaft_damping: 1e-3 };
+    ///     const BASES: Bases = Self::RATING.rigid_bases(&Self::RIGID_OBSERVER, &Self::GEAR, &Self::SPEED_LOOP);
+    /// }
+    /// type StiffDrive = Drive<Fixed, RigidObserver, SpeedLoop>;
+    /// static CONFIG: ConfigOf<StiffDrive> = StiffDrive::configure::<Stiff>();
+    /// ```
     #[must_use]
     pub const fn rigid_bases(&self, observer: &RigidDesign, gear: &Gear, speed_loop: &SpeedLoopDesign) -> Bases {
         self.search(None, observer, gear, speed_loop)

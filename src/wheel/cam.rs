@@ -9,6 +9,22 @@ impl<R: ToothRecord> ToothedWheel<R> {
     /// An edge of the cam; to be called from the interrupt of its capture. The parts of the cycle in which the cam has
     /// no edge here are excluded; when one is left, the cycle goes on from there. An edge that excludes all is left
     /// out, and the next begin anew.
+    ///
+    /// ```
+    /// use driveline::settings::{Teeth, ToothClock};
+    /// use driveline::wheel::{Cam, ToothedWheel, ToothedWheelConfig};
+    /// const CONFIG: ToothedWheelConfig<58> =
+    ///     ToothedWheelConfig::new(&Teeth::gap(60, 2), ToothClock { turns: 2, clock: 6e6, lowest_speed: 10.0 });
+    /// let cam = Cam::degrees(2, [100.0], 15.0); // in the first turn of a four-stroke cycle
+    /// let mut wheel = ToothedWheel::<()>::default();
+    /// for place in (0..60 * 6_u32).filter(|place| place % 60 < 58) {
+    ///     wheel.tooth(&CONFIG, 1000 * place);
+    ///     if place % 120 == 16 {
+    ///         wheel.cam(&CONFIG, &cam, 1000 * place + 667);
+    ///     }
+    /// }
+    /// assert!(wheel.has_phase() && wheel.turn(&CONFIG) == 1); // of the turns 0 and 1
+    /// ```
     pub fn cam<const TEETH: usize, const EDGES: usize>(
         &mut self,
         config: &ToothedWheelConfig<TEETH>,
