@@ -77,23 +77,6 @@ impl LoopObserver<'_> {
 }
 
 impl TwoMass {
-    /// Stops where a speed loop lacks margin, or is unstable within its tolerances.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_robust`](Self::try_robust) returns.
-    pub const fn robust(
-        &self,
-        observer: LoopObserver<'_>,
-        speed_loop: &SpeedLoopDesign,
-        actuator: Actuator,
-        tolerance: &Tolerance,
-        robustness: &Robustness,
-    ) {
-        if let Err(error) = self.try_robust(observer, speed_loop, actuator, tolerance, robustness) {
-            error.stop()
-        }
-    }
-
     /// Whether a speed loop on this machine, with its observer in it, has the required margins, and is stable within
     /// the tolerances.
     ///
