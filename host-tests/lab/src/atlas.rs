@@ -2,7 +2,7 @@
 
 mod life;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -119,13 +119,15 @@ impl Atlas {
             }
             if let Some([single, fixed]) = &point.images {
                 let mut counts = [of(single, "m4f")?, of(fixed, "m3")?].map(instructions);
+                let mut third = m33.get(single).copied();
                 point.bytes = Some(flash(single)? - empty);
                 if let Some([single, fixed]) = &point.less {
                     let less = [of(single, "m4f")?, of(fixed, "m3")?].map(instructions);
                     counts = [counts[0] - less[0], counts[1] - less[1]];
+                    third = third.zip(m33.get(single)).map(|(all, less)| all - less);
                     point.bytes = point.bytes.zip(flash(single).ok()).map(|(all, less)| all + empty - less);
                 }
-                point.instructions = [Some(counts[0]), Some(counts[1]), None];
+                point.instructions = [Some(counts[0]), Some(counts[1]), third];
             }
             if let Some([m4f, m3]) = point.counts {
                 point.instructions = [Some(m4f), Some(m3), point.instructions[2]];
@@ -138,6 +140,12 @@ impl Atlas {
             }
         }
         Ok(Self { subjects: subject })
+    }
+
+    /// The images in `f32` whose ticks are a cost.
+    pub fn images(&self) -> BTreeSet<&str> {
+        let points = self.subjects.iter().flat_map(|subject| &subject.points);
+        points.flat_map(|point| point.images.iter().chain(&point.less)).map(|[single, _]| single.as_str()).collect()
     }
 
     /// The page in Markdown, with the table of stiff and extreme cases.

@@ -17,7 +17,8 @@ use driveline_qemu::setup::Need;
 /// Collect errors, instructions and flash of every subject on one page, and run the stiff and extreme cases.
 ///
 /// Errors are those of the pages of the book, costs those of `budgets.toml`; parts that no other part betters for the
-/// same machine are marked. --count builds the bench for one core and prints the instructions of its functions.
+/// same machine are marked. --count builds bench and images for one core and prints the instructions of functions and
+/// ticks.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo lab atlas
@@ -33,7 +34,7 @@ pub struct Atlas {
     /// Write the page for a browser
     #[arg(long, value_name = "PATH")]
     html: Option<PathBuf>,
-    /// Count the bench's functions on this core in QEMU instead: m4f, m3, m7, m33
+    /// Count the bench's functions and the images' ticks on this core in QEMU instead: m4f, m3, m7, m33
     #[arg(long, value_name = "CORE")]
     count: Option<String>,
 }
@@ -82,7 +83,13 @@ fn count(core: &str) -> Result<(), Failure> {
         Failure::usage(format!("--count {core}: expected one of {}", cores.join(", ")))
     })?;
     ready(&Need::to_run([&board]))?;
-    for (name, cost) in Cost::benches(board).map_err(|error| Failure::failed(error.to_string()))? {
+    let failed = |error: Box<dyn std::error::Error>| Failure::failed(error.to_string());
+    let mut counted = Cost::benches(board).map_err(failed)?;
+    let atlas = atlas::Atlas::read(workspace().map_err(|error| failed(error.into()))?).map_err(Failure::failed)?;
+    for name in atlas.images() {
+        counted.push((name.to_owned(), Cost::measure(name, board, |_| {}).map_err(failed)?));
+    }
+    for (name, cost) in counted {
         say(format_args!(
             "\"{name}\" = {}",
             cost.bound.map_or(cost.instructions.median.into(), |bound| bound.instructions)
