@@ -3,6 +3,8 @@
 #[cfg(not(target_family = "wasm"))]
 mod command;
 mod crossings;
+#[cfg(not(target_family = "wasm"))]
+mod drawn;
 mod linear;
 mod page;
 pub mod rates;

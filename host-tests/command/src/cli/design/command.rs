@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{Detail, Whole, emitted, page, rates, responses, text, widest};
+use super::{Detail, Whole, drawn, emitted, page, rates, responses, text, widest};
 use crate::cli::results::{Destination, check};
 use crate::cli::{Failure, Plan, say, say_json};
 use crate::machine_file::read;
@@ -65,21 +65,22 @@ impl Design {
             return Err(Failure::failed(format!("{}: no constants are printed: {why}", self.file.display())));
         }
         let draws = self.draws.unwrap_or(0);
-        let drawn = || responses(&machine, Detail::FULL).map_err(refused);
+        let choices = || rates::choices(&machine, |choices| drawn::fill(choices, &machine, draws));
+        let shown = || responses(&machine, Detail::FULL).map_err(refused);
         match (self.emit, self.json) {
             (Some(Language::Rust), true) => {
                 say_json(&serde_json::json!({ "rust": emitted(&machine, &plan).map_err(refused)? }))?;
             }
             (Some(Language::Rust), false) => say(emitted(&machine, &plan).map_err(refused)?.trim_end()),
             (None, true) => {
-                let rates = self.rates.then(|| rates::choices(&machine, draws));
-                say_json(&Whole { plan: &plan, responses: drawn()?, widest: widest(&machine, &plan), rates })?;
+                let rates = self.rates.then(choices);
+                say_json(&Whole { plan: &plan, responses: shown()?, widest: widest(&machine, &plan), rates })?;
             }
-            (None, false) if self.rates => say(rates::text(&machine, draws)),
+            (None, false) if self.rates => say(rates::text(&choices(), draws)),
             (None, false) => say(text(&machine, &plan)),
         }
         if let Some(html) = html {
-            html.write_and_say(&page(&plan, drawn()?.as_ref()), self.json)?;
+            html.write_and_say(&page(&plan, shown()?.as_ref()), self.json)?;
         }
         let lack = |which: &str, why: &String| {
             Failure::failed(format!("{}: the speed loop {which} margins: {why}", self.file.display()))

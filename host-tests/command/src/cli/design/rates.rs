@@ -4,13 +4,7 @@ use driveline_report::Table;
 use driveline_report::format::{percent, rate, significant};
 use serde::Serialize;
 
-use crate::campaign::drive::Drive;
-use crate::campaign::run::run;
-use crate::campaign::scenes::CampaignScene;
-use crate::campaign::{Draw, Figure, quantile, work};
-use crate::cli::Progress;
 use crate::machine_file::MachineFile;
-use driveline_closed_loop::departure::Departure;
 
 /// Instructions at most of a tick with observer and speed loop: M4F in `f32`, M3 in fixed point. Those of
 /// `budgets.toml`, which a test of the book compares.
@@ -44,9 +38,9 @@ pub struct Choice {
     pub on_front: bool,
 }
 
-/// Both observers at every rate, with so many machines drawn for each that has all margins; none of a machine without a
+/// Both observers at every rate, those with all margins also on machines that `draw` draws; none of a machine without a
 /// shaft.
-pub fn choices(machine: &MachineFile, draws: u64) -> Vec<Choice> {
+pub fn choices(machine: &MachineFile, draw: impl FnOnce(&mut [Choice])) -> Vec<Choice> {
     let Some(two) = machine.two_masses() else { return Vec::new() };
     let own = f64::from(machine.control.rate_hz);
     let rates = SHARES.iter().map(|share| (share * own).round()).filter(|rate| (10.0..=200e3).contains(rate));
@@ -63,17 +57,7 @@ pub fn choices(machine: &MachineFile, draws: u64) -> Vec<Choice> {
             Choice { rate_hz: rate as u32, observer, errors, drawn: None, instructions, lacks, on_front: false }
         })
         .collect();
-    if draws > 0 {
-        let progress = Progress::of(choices.iter().filter(|choice| choice.lacks.is_none()).count() as u64);
-        for choice in choices.iter_mut().filter(|choice| choice.lacks.is_none()) {
-            progress.says(&format!("{} at {}", choice.observer, rate(choice.rate_hz)));
-            match drawn(&machine.with_rate(choice.rate_hz), choice.observer, draws) {
-                Ok(found) => choice.drawn = Some(found),
-                Err(why) => choice.lacks = Some(why),
-            }
-            progress.step();
-        }
-    }
+    draw(&mut choices);
     let figures = |choice: &Choice| {
         let ([torque, speed, _], [cost, _]) = choice.drawn.or(choice.errors).zip(choice.instructions)?;
         choice.lacks.is_none().then_some([torque, speed, cost])
@@ -86,30 +70,8 @@ pub fn choices(machine: &MachineFile, draws: u64) -> Vec<Choice> {
     choices
 }
 
-/// Median errors of shaft torque, load speed and load torque over drawn machines.
-fn drawn(machine: &MachineFile, observer: &str, draws: u64) -> Result<[f64; 3], String> {
-    let scene = CampaignScene::of_file(machine.clone())?;
-    let nominal = scene.departing(&Departure::NONE).map_err(|error| error.to_string())?;
-    let drive = Drive::named(&scene, &nominal, Some(if observer == "exact" { "two-mass" } else { observer }))?;
-    let (tolerances, numbers) = (scene.tolerances(), (0..draws).collect::<Vec<_>>());
-    let mut outcomes = Vec::new();
-    work(&numbers, None, &|number| run(&scene, &drive, &Draw::new(&tolerances, 1, number)), &mut |_, outcome| {
-        outcomes.push(outcome);
-        Ok(())
-    })?;
-    match outcomes.iter().filter(|outcome| outcome.is_unstable()).count() {
-        0 => Ok([Figure::ShaftTorque, Figure::LoadSpeed, Figure::LoadTorque].map(|figure| {
-            let mut errors: Vec<f64> = outcomes.iter().filter_map(|outcome| outcome.found(figure)).collect();
-            errors.sort_by(f64::total_cmp);
-            quantile(&errors, 0.5)
-        })),
-        unstable => Err(format!("{unstable} of {draws} drawn machines are unstable")),
-    }
-}
-
 /// The table.
-pub fn text(machine: &MachineFile, draws: u64) -> String {
-    let choices = choices(machine, draws);
+pub fn text(choices: &[Choice], draws: u64) -> String {
     if choices.is_empty() {
         return "no rates are compared: the machine has no shaft".to_owned();
     }
@@ -118,7 +80,7 @@ pub fn text(machine: &MachineFile, draws: u64) -> String {
         heads.extend(["shaft torque, drawn", "load speed, drawn", "load torque, drawn", "µs a tick, M4F"]);
     }
     let mut table = Table::new(heads.into_iter().chain(["million a second, M4F f32", "M3 fixed", ""]));
-    for choice in &choices {
+    for choice in choices {
         let three = |errors: Option<[f64; 3]>| errors.map_or([const { String::new() }; 3], |e| e.map(percent));
         let costs =
             choice.instructions.map_or([const { String::new() }; 2], |costs| costs.map(|n| significant(1e-6 * n)));
