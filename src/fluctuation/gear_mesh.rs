@@ -164,8 +164,8 @@ struct Edge {
 /// it. Where a block ends between two ticks the sum is corrected to the integral by Euler and Maclaurin's formula.
 ///
 /// The motor turns forwards, a period of the mesh has eight ticks at least, a block 262,144 at most, and ticks and
-/// counts have no common period. The amplitude is that of the motor's own swing, which its inertia and the gear's stiffness set: compare it
-/// at one speed and load with what it was, as by a record in flash (feature `parameters`).
+/// counts have no common period. The amplitude is that of the motor's own swing, which its inertia and the gear's
+/// stiffness set: compare it at one speed and load with what it was, as by a record in flash (feature `parameters`).
 ///
 /// ```
 /// use driveline::fluctuation::{Fluctuation, GearMesh, GearMeshConfig, Sideband};
