@@ -35,4 +35,4 @@ pub use figure::{Figure, Outcome, decay};
 pub use plain::PlainLoop;
 pub use statistics::{median_range, noise_of_largest, quantile, rank_correlation};
 pub use summary::Summary;
-pub use work::work;
+pub use work::{outcomes, work};

@@ -176,7 +176,7 @@ pub fn objective(figures: &[Figure], outcomes: &[Outcome]) -> Result<f64, String
     if unstable > 0 {
         return Err(format!("{unstable} of {} machines are unstable", outcomes.len()));
     }
-    let each: Vec<f64> = figures.iter().map(|&figure| of_share(figure, outcomes)).collect();
+    let each: Vec<f64> = figures.iter().map(|&figure| of_share(figure, outcomes, SHARE)).collect();
     match each.as_slice() {
         [one] => Ok(*one),
         all if all.iter().all(|value| *value > 0.0) => {
@@ -186,11 +186,11 @@ pub fn objective(figures: &[Figure], outcomes: &[Outcome]) -> Result<f64, String
     }
 }
 
-/// The value of a figure that [`SHARE`] of the machines do not exceed.
-pub fn of_share(figure: Figure, outcomes: &[Outcome]) -> f64 {
+/// The value of a figure that a share of the machines do not exceed.
+pub fn of_share(figure: Figure, outcomes: &[Outcome], share: f64) -> f64 {
     let mut values: Vec<f64> = outcomes.iter().map(|outcome| outcome.of(figure)).collect();
     values.sort_by(f64::total_cmp);
-    quantile(&values, SHARE)
+    quantile(&values, share)
 }
 
 /// Searches the ranges; `try_out` gives what is to be least at these values. Gives all points, the best one first: of

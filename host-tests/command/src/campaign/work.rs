@@ -1,10 +1,37 @@
 //! Draws side by side on all cores.
 
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
+use super::draw::Draw;
+use super::drive::Drive;
 use super::figure::Outcome;
+use super::run::run;
+use super::scenes::CampaignScene;
+use crate::machine_file::factor::Tolerance;
+
+/// Outcomes of so many draws of a seed, in their order.
+///
+/// # Errors
+/// The first draw that failed.
+pub fn outcomes(
+    scene: &CampaignScene,
+    drive: &Drive,
+    tolerances: &[Tolerance],
+    (seed, draws): (u64, u64),
+    threads: Option<usize>,
+) -> Result<Vec<Outcome>, String> {
+    let one = |number: u64| run(scene, drive, &Draw::new(tolerances, seed, number));
+    let mut outcomes = BTreeMap::new();
+    let mut take = |number: u64, outcome: Outcome| {
+        outcomes.insert(number, outcome);
+        Ok(())
+    };
+    work(&(0..draws).collect::<Vec<_>>(), threads, &one, &mut take)?;
+    Ok(outcomes.into_values().collect())
+}
 
 /// Runs the draws on so many threads, one a core where none is named, and takes each when it is done.
 ///

@@ -1,16 +1,14 @@
 //! `cargo driveline campaign FILE.toml --tune`: the values of a machine file that make a figure least.
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use serde::Serialize;
 
 use super::Campaign;
 use crate::campaign::drive::Drive;
-use crate::campaign::run::run;
 use crate::campaign::scenes::CampaignScene;
 use crate::campaign::tune::{SHARE, Text, Tried, Tuned, objective, of_share, search};
-use crate::campaign::{Draw, Figure, Outcome, work};
+use crate::campaign::{Figure, Outcome, outcomes};
 use crate::cli::results::{Destination, check};
 use crate::cli::{Failure, Progress, say, say_json};
 use crate::machine_file::{parse, text};
@@ -128,8 +126,8 @@ impl Campaign {
         let before = outcomes_at(&from).map_err(Failure::failed)?.ok();
         let change = |&(_, figure): &(&str, Figure)| Change {
             name: figure.name(),
-            from: before.as_ref().map(|outcomes| of_share(figure, outcomes)),
-            to: of_share(figure, &after.1),
+            from: before.as_ref().map(|outcomes| of_share(figure, outcomes, SHARE)),
+            to: of_share(figure, &after.1, SHARE),
         };
         let found = Found {
             draws,
@@ -165,14 +163,7 @@ impl Campaign {
             return Ok(Err(lacks));
         }
         let tolerances = self.tolerances(&scene)?;
-        let one = |number: u64| run(&scene, &drive, &Draw::new(&tolerances, self.seed, number));
-        let mut outcomes = BTreeMap::new();
-        let mut take = |number: u64, outcome: Outcome| {
-            outcomes.insert(number, outcome);
-            Ok(())
-        };
-        work(&(0..draws).collect::<Vec<_>>(), self.threads, &one, &mut take)?;
-        Ok(Ok(outcomes.into_values().collect()))
+        outcomes(&scene, &drive, &tolerances, (self.seed, draws), self.threads).map(Ok)
     }
 }
 
