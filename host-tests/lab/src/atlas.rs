@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::path::Path;
 
+use cargo_driveline::cli::design::rates::M4F;
 use driveline_qemu::measure::budgets::{Budget, Budgets};
 use driveline_report::chart::{Dot, fronts, scatter};
 use driveline_report::format::{grouped, significant};
@@ -21,7 +22,7 @@ const POINTS: &str = include_str!("atlas.toml");
 ///
 /// The cycles are those of the hoist's four images: their intervals over their bounds, on the page of the worst case.
 pub const CORES: [(&str, &str, f64, Option<[f64; 2]>); 3] = [
-    ("m4f", "M4F, 168 MHz", 168e6, Some([1.58, 1.80])),
+    ("m4f", "M4F, 168 MHz", M4F.0, Some(M4F.1)),
     ("m3", "M3, 72 MHz", 72e6, Some([1.62, 2.21])),
     ("m33", "M33, 110 MHz", 110e6, None),
 ];

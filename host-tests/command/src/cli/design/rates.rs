@@ -11,9 +11,9 @@ use crate::machine_file::MachineFile;
 pub const INSTRUCTIONS: [(&str, [u32; 2]); 3] =
     [("rigid", [117, 117]), ("semi-implicit", [129, 140]), ("exact", [151, 191])];
 
-/// Least and most nanoseconds of an instruction on an M4F at 168 MHz: 1.58 to 1.80 cycles, as of the hoist's images in
-/// `doc/makers/worst-case.md`.
-const NANOSECONDS: [f64; 2] = [1.58 / 0.168, 1.80 / 0.168];
+/// Clock of an M4F (Hz), and least and most cycles of an instruction there: the intervals of the hoist's images over
+/// their bounds, in `doc/makers/worst-case.md`.
+pub const M4F: (f64, [f64; 2]) = (168e6, [1.58, 1.80]);
 
 /// Rates that are tried, of the file's.
 const SHARES: [f64; 7] = [0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0];
@@ -96,7 +96,8 @@ pub fn text(choices: &[Choice], draws: u64) -> String {
             cells.extend(three(choice.drawn));
             cells.push(choice.instructions.map_or_else(String::new, |[a_second, _]| {
                 let a_tick = a_second / f64::from(choice.rate_hz);
-                NANOSECONDS.map(|each| significant(1e-3 * each * a_tick)).join(" to ")
+                let (clock, cycles) = M4F;
+                cycles.map(|cycles| significant(1e6 * cycles * a_tick / clock)).join(" to ")
             }));
         }
         table.row(cells.into_iter().chain(costs).chain([last]));
