@@ -1,5 +1,8 @@
 //! Single ticks of the governors.
 
+#[path = "../library/governor/plain.rs"]
+mod plain;
+
 use driveline::fault::Faults;
 use driveline::governor::{
     AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, BacklashTakeUp,
@@ -9,23 +12,15 @@ use driveline::governor::{
     SequencerConfig, SetpointShape, Slew, SlewConfig, SpeedFilter, SpeedGovernor, SpeedGovernorConfig, SpeedLoop,
     SpeedLoopConfig, SpeedRange, SymmetricLimit, SymmetricLimitConfig, TransportDelay, TransportDelayConfig, Trip,
 };
-use driveline::number::{Coefficient, Fixed, Number, StateOf, Weight};
+use driveline::number::{Coefficient, Fixed, StateOf, Weight};
 use driveline::sample::Estimate;
+
+pub use self::plain::plain;
 
 const GAINS: Gains<f64> = Gains { proportional: 1.0, reset: 0.0, ramp: 10.0 };
 
 fn at(speed: f64) -> Estimate<f64> {
     Estimate { motor_speed: speed, shaft_torque: 0.0, load_speed: speed, load_torque: 0.0 }
-}
-
-/// A governor without a run sequence and without a filter of the speed.
-pub fn plain<N: Number, S, F, L>(
-    gains: Gains<N>,
-    shape: S,
-    compensation: F,
-    limit: L,
-) -> SpeedGovernorConfig<N, S, F, L, (), ()> {
-    SpeedGovernorConfig { gains, shape, compensation, limit, sequence: (), filter: () }
 }
 
 /// An integral within the limit leaves the next command as soon as an error asks for less.
