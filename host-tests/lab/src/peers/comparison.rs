@@ -70,7 +70,7 @@ const STEP: f64 = core::f64::consts::SQRT_2;
 
 /// The names of the scenes that are compared.
 pub fn scenes() -> impl Iterator<Item = &'static str> {
-    SCENES.iter().map(|(name, _)| *name).filter(|name| !["converter-ring", "skip-winch"].contains(name))
+    SCENES.iter().map(|(name, _)| *name)
 }
 
 impl SceneComparison {
