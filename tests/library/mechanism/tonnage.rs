@@ -188,13 +188,23 @@ fn the_force_of_200_presses() {
 }
 
 /// A force that exceeds the limit by a fifth stops the press within a millisecond, before it or after.
-#[test]
-fn an_overload_stops() {
+fn overloads(laws: &[&str], each: usize) {
     let mut noise = Noise::new(48);
-    for law in &LAWS[..3] {
-        let stops: Vec<_> =
-            (0..3).map(|_| stroke(&press(law, FINE, &mut noise), FINE, 1.2, &mut noise).stop.unwrap()).collect();
+    for law in laws {
+        let one = |_| stroke(&press(law, FINE, &mut noise), FINE, 1.2, &mut noise).stop.unwrap();
+        let stops: Vec<_> = (0..each).map(one).collect();
         println!("{law}: {stops:?}");
         assert!(stops.iter().all(|stop| stop.abs() <= 1e-3), "{law}: {stops:?}");
     }
+}
+
+#[test]
+fn an_overload_stops() {
+    overloads(&LAWS[..3], 3);
+}
+
+#[test]
+#[ignore = "200 presses: minutes"]
+fn the_overloads_of_200_presses() {
+    overloads(&LAWS, 40);
 }
