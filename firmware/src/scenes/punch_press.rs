@@ -170,7 +170,6 @@ pub mod panel {
     pub const ENERGY_SWING: u32 = 4;
     /// Inertia that is missing at the motor (kg m2).
     pub const MISSING: u32 = 5;
-
     /// The force of the punch at this moment (N), as the bits of `f32`.
     pub const FORCE: u32 = 6;
     /// Amplitude of a line of the mesh in the motor's angle (rad), as the bits of `f32`; 0 before the first reading.
@@ -272,7 +271,7 @@ impl<N: Summed<Real = f32>> Notes<N> {
 
 /// The force at which the press stops (N): a fourth above the rated 800 kN.
 pub const LIMIT: f64 = 1e6;
-/// Idle torque of bearings and gibs at the motor (N m), measured over a stroke without plate at rated speed.
+/// Idle torque of bearings and gibs at the motor (N m), as the mean over a stroke without plate at rated speed has it.
 const IDLE: f64 = 20.0;
 
 /// A number in which the force is limited.
